@@ -1,0 +1,42 @@
+/* file.h - whole files: read at once, or written so that they appear whole or not at all. */
+#ifndef BATTEN_FILE_H
+#define BATTEN_FILE_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "report.h"
+
+/*
+ * Read a whole file. *out is the caller's to free and has a zero byte behind its *n bytes.
+ * Errors: ST_INPUT (missing, a folder, unreadable), ST_RESOURCE (larger than max, no memory).
+ */
+enum status file_read(const char *path, uint64_t max, char **out, size_t *n,
+                      const struct report *r);
+
+/*
+ * A file on its way: written under a temporary name in the same folder, put under its final name
+ * by commit (flushed, synced, renamed, folder synced). Until then nothing is to be seen of it.
+ */
+struct whole_file {
+	FILE *stream;      /* write here; owned */
+	char *path, *temp; /* owned */
+};
+
+/* Errors: ST_INPUT (no such folder, not writable), ST_RESOURCE. */
+enum status whole_file_create(struct whole_file *f, const char *path, const struct report *r);
+
+/* Put the file in place, or on failure (full disk) take it away. Ends f either way. */
+enum status whole_file_commit(struct whole_file *f, const struct report *r);
+
+/* Take the temporary file away. A zeroed or ended f is fine. */
+void whole_file_abandon(struct whole_file *f);
+
+/* Create, write n bytes, commit. */
+enum status file_write(const char *path, const void *bytes, size_t n, const struct report *r);
+
+/* Make a folder and those above it that are missing; mode as for mkdir. */
+enum status folder_make(const char *path, unsigned mode, const struct report *r);
+
+#endif

@@ -1,0 +1,39 @@
+/* camera.h - how surfaces are seen. World z is up. */
+#ifndef BATTEN_CAMERA_H
+#define BATTEN_CAMERA_H
+
+#include "box.h"
+#include "vec.h"
+
+enum camera_kind { CAMERA_ORTHOGRAPHIC, CAMERA_PERSPECTIVE };
+
+struct camera {
+	enum camera_kind kind;
+	int width, height;            /* pixels */
+	struct vec3 eye;              /* of an orthographic camera: centre of the image plane */
+	struct vec3 right, up, ahead; /* unit, right x up = -ahead */
+	double half;                  /* half of the image's smaller side: length (orthographic),
+	                                 tangent of half the angle (perspective) */
+};
+
+/*
+ * Look at the box so that it fits with a margin of 6 % a side. `view` is
+ *	three-quarter (default) | front | back | left | right | top | bottom | AZIMUTH,ELEVATION
+ * in degrees (azimuth from +x to +y of where the eye stands), optionally followed by
+ * :perspective or :orthographic (default orthographic) and, perspective, @ANGLE in degrees.
+ * Errors: ST_PARAMETER with what is allowed.
+ */
+enum status camera_fit(struct camera *out, const char *view, const struct box *box, int width,
+                       int height, const struct report *r);
+
+/* Ray through image point (x, y) in pixels, (0, 0) the upper left corner of the upper left pixel. */
+void camera_ray(const struct camera *c, double x, double y, struct vec3 *origin,
+                struct vec3 *direction);
+
+/* Image point of p in pixels and its depth along `ahead`; false behind a perspective eye. */
+bool camera_project(const struct camera *c, struct vec3 p, double *x, double *y, double *depth);
+
+/* Length of a pixel at p, in the file's unit: for tolerances of lines drawn. */
+double camera_pixel(const struct camera *c, struct vec3 p);
+
+#endif

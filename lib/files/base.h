@@ -1,0 +1,25 @@
+/* base.h - the .base text format: egeom and fgeom fields by name. Grammar: docs/formats.md.
+ * read(write(x)) == x to the bit. Used for .isophote and other results in geometry form too. */
+#ifndef BATTEN_BASE_H
+#define BATTEN_BASE_H
+
+#include "model.h"
+#include "text.h"
+
+/* True where the bytes begin as a .base file does. */
+bool base_recognise(const char *bytes, size_t n);
+
+/* Errors: ST_INPUT "FILE:LINE:COLUMN: found X, expected Y", ST_RESOURCE, ST_CANCELLED. */
+enum status base_parse(struct model *m, const char *bytes, size_t n, const char *name,
+                       const struct progress *p, const struct report *r);
+
+/* The whole model as text; out->failed where memory ran out. */
+void base_format(const struct model *m, struct text *out);
+
+/* Write as a whole file. */
+enum status base_write(const struct model *m, const char *path, const struct report *r);
+
+/* One entity alone with the model's unit: what `.batten/inputs/HASH.base` holds. */
+void base_format_entity(const struct model *m, const struct entity *e, struct text *out);
+
+#endif

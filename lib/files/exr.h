@@ -1,0 +1,67 @@
+/* exr.h - OpenEXR images in tiles: each tile packed (compressed) by itself, in any thread, and the
+ * file put together from packed tiles without touching them again. */
+#ifndef BATTEN_EXR_H
+#define BATTEN_EXR_H
+
+#include <stdint.h>
+
+#include "report.h"
+#include "text.h"
+
+enum { EXR_CHANNELS_MAX = 64 };
+
+struct exr_channel {
+	const char *name; /* borrowed; "R", "N.X", "K" */
+	bool half;        /* half float in the file; else float */
+};
+
+struct exr_attribute {
+	const char *name, *value; /* borrowed; a string attribute */
+};
+
+struct exr_image {
+	int width, height;
+	int tile; /* tile width and height in pixels */
+	const struct exr_channel *channels; /* borrowed */
+	int n_channels;
+	const struct exr_attribute *attributes; /* borrowed */
+	int n_attributes;
+};
+
+/* Tiles across, down, and in all. Tile i lies at (i % across, i / across). */
+int exr_tiles_across(const struct exr_image *im);
+int exr_tiles_down(const struct exr_image *im);
+size_t exr_tiles(const struct exr_image *im);
+
+/* Pixels of tile i: x, y of its first, width and height (smaller at the border). */
+void exr_tile_window(const struct exr_image *im, size_t i, int *x, int *y, int *w, int *h);
+
+/*
+ * Pack tile i: planes[c] holds the tile's values of channel c, w x h floats without gaps; half
+ * channels are converted to nearest. The bytes are appended to *out. Level 2 zip.
+ * Thread: any. Errors: ST_RESOURCE.
+ */
+enum status exr_pack(const struct exr_image *im, size_t i, const float *const *planes,
+                     struct text *out);
+
+/* Give tile i's packed bytes. */
+typedef enum status exr_source(void *data, size_t i, const char **bytes, size_t *n);
+
+/* Write the whole file under `path` (which the caller renames: give a temporary name). */
+enum status exr_write(const char *path, const struct exr_image *im, exr_source *source, void *data,
+                      const struct report *r);
+
+/* A read image: all channels as float. */
+struct exr_picture {
+	int width, height, n_channels;
+	char **names;  /* owned */
+	float **planes; /* owned, width x height each, rows from the top */
+	struct { char *name, *value; } *attributes; /* owned; string attributes only */
+	int n_attributes;
+};
+enum status exr_read(struct exr_picture *out, const char *path, const struct report *r);
+enum status exr_read_attributes(struct exr_picture *out, const char *path, const struct report *r);
+void exr_picture_finish(struct exr_picture *p);
+const float *exr_plane(const struct exr_picture *p, const char *name); /* NULL if none */
+
+#endif

@@ -1,0 +1,22 @@
+/* iges.h - IGES 5.3 (and older) files read into a model. */
+#ifndef BATTEN_IGES_H
+#define BATTEN_IGES_H
+
+#include "model.h"
+#include "text.h"
+
+bool iges_recognise(const char *bytes, size_t n);
+
+/*
+ * Every entity that can be read becomes NURBS in the file's unit, entity 124 applied; everything
+ * else is counted in m->skipped with its reason. One bad entity costs that entity.
+ * Errors: ST_INPUT (no entity could be read, no terminate record), ST_RESOURCE, ST_CANCELLED.
+ */
+enum status iges_parse(struct model *m, const char *bytes, size_t n, const char *name,
+                       const struct progress *p, const struct report *r);
+
+/* The surfaces and curves of a model as entities 128 and 126. No time, no host in the header. */
+void iges_format(const struct model *m, struct text *out);
+enum status iges_write(const struct model *m, const char *path, const struct report *r);
+
+#endif

@@ -1,0 +1,42 @@
+/* part.h - the part file: finished units of a computation, safe against a kill at any instant.
+ *
+ * Layout (docs/formats.md): a header with a key (what is computed, from what), then one record a
+ * unit in the order they came: unit number, length, checksum, bytes. A record is written by one
+ * write; a torn or damaged one at the end is cut off when the file is opened again.
+ */
+#ifndef BATTEN_PART_H
+#define BATTEN_PART_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "report.h"
+
+struct part; /* opaque; an open part file */
+
+/*
+ * Open or make the part file of a computation with that key (text: worker, version, input hash,
+ * parameters, vector level) and that many units. A file with another key is begun anew.
+ * Errors: ST_RESOURCE, ST_INPUT (folder missing, not writable, in use by another process).
+ */
+enum status part_open(struct part **out, const char *path, const char *key, size_t n_units,
+                      const struct report *r);
+void part_close(struct part *p); /* NULL is fine; the file stays */
+
+bool part_has(const struct part *p, size_t unit);
+size_t part_count(const struct part *p); /* units in the file */
+
+/* Append one unit's bytes; a unit that is there already is left. Thread: any. */
+enum status part_put(struct part *p, size_t unit, const void *bytes, size_t n,
+                     const struct report *r);
+
+/* Bytes of a unit, valid until the part is closed; checks the checksum. Thread: any.
+ * Errors: ST_INPUT (not there), ST_RESOURCE. */
+enum status part_get(struct part *p, size_t unit, const char **bytes, size_t *n,
+                     const struct report *r);
+
+/* Close and take the file away. */
+void part_remove(struct part *p);
+
+#endif

@@ -1,0 +1,58 @@
+/* construct.h - curves and surfaces made from a description. Outputs are fresh; lengths in the
+ * caller's unit, angles in radians. Errors: ST_RESOURCE, ST_PARAMETER (what is wrong in report). */
+#ifndef BATTEN_CONSTRUCT_H
+#define BATTEN_CONSTRUCT_H
+
+#include "curve.h"
+#include "surface.h"
+
+enum status make_line(struct curve *out, struct vec3 a, struct vec3 b); /* domain [0, 1] */
+enum status make_polyline(struct curve *out, const struct vec3 *p, int n);
+
+/* Circular arc about c in the plane of unit vectors x, y, from angle a to b (a < b <= a + 2 pi);
+ * domain [a, b]; rational quadratic pieces of at most 90 degrees.
+ * Source: The NURBS Book, A7.1. */
+enum status make_arc(struct curve *out, struct vec3 c, struct vec3 x, struct vec3 y, double radius,
+                     double a, double b);
+
+/* Conic A x^2 + B xy + C y^2 + D x + E y + F = 0 in the plane z = zt, from p to q (IGES 104). */
+enum status make_conic(struct curve *out, const double coefficients[6], double zt, struct vec3 p,
+                       struct vec3 q, const struct report *r);
+
+/* Piecewise power-basis polynomial (IGES 112, 114): segment i has coefficients c[i][dim][power]
+ * of (t - breaks[i]). degree 1 .. 3. Knots take the continuity that the segments really have, C0 at
+ * least; segments that do not join within tolerance are an error. */
+enum status make_power_curve(struct curve *out, const double *breaks, int segments,
+                             const double (*c)[3][4], double tolerance, const struct report *r);
+enum status make_power_surface(struct surface *out, const double *u, int nu, const double *v,
+                               int nv, const double (*c)[3][16], double tolerance,
+                               const struct report *r);
+
+/* Join curves end to start within tolerance into one (degrees raised, parameters put one after the
+ * other); IGES 102. `n` curves. */
+enum status make_composite(struct curve *out, const struct curve *c, int n, double tolerance,
+                           const struct report *r);
+
+/* v from a (v=0) to b (v=1). Source: The NURBS Book, section 8.4. */
+enum status make_ruled(struct surface *out, const struct curve *a, const struct curve *b);
+
+/* Curve moved along d, v in [0, 1] (IGES 122). */
+enum status make_cylinder(struct surface *out, const struct curve *c, struct vec3 d);
+
+/* Curve turned about the line through p along unit axis, from angle a to b: u the curve's
+ * parameter, v the angle... see the .c for IGES 120's order. Source: The NURBS Book, A8.1. */
+enum status make_revolution(struct surface *out, const struct curve *c, struct vec3 p,
+                            struct vec3 axis, double a, double b);
+
+/* Bilinear patch, corners (0,0) (1,0) (0,1) (1,1). */
+enum status make_bilinear(struct surface *out, const struct vec3 corner[4]);
+
+/* Offset by distance along N, approximated to tolerance (absolute); *error is the largest distance
+ * found by checking. ST_INPUT where the distance exceeds the smallest radius. */
+enum status make_offset(struct surface *out, const struct surface *s, double distance,
+                        double tolerance, double *error, const struct report *r);
+
+enum status make_sphere(struct surface *out, struct vec3 c, double radius);
+enum status make_torus(struct surface *out, struct vec3 c, double major, double minor);
+
+#endif
