@@ -30,11 +30,11 @@ extern const struct report report_none;
  * r may be NULL. Thread: any; `say` of a report used from several threads must allow that.
  */
 enum status report_error(const struct report *r, enum status st, const char *format, ...)
-	__attribute__((format(printf, 3, 4)));
+        __attribute__((format(printf, 3, 4)));
 void report_warning(const struct report *r, const char *format, ...)
-	__attribute__((format(printf, 2, 3)));
+        __attribute__((format(printf, 2, 3)));
 void report_info(const struct report *r, const char *format, ...)
-	__attribute__((format(printf, 2, 3)));
+        __attribute__((format(printf, 2, 3)));
 
 /* A report that keeps the last error and counts: for tests, and to pass a sentence on later. */
 struct report_store {

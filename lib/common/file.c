@@ -1,0 +1,174 @@
+/* file.c - whole files. */
+#include "file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "path.h"
+#include "text.h"
+
+static enum status fail(const struct report *r, const char *what, const char *path, int error)
+{
+	return report_error(r, status_from_errno(error), "cannot %s '%s': %s", what, path,
+	                    strerror(error));
+}
+
+enum status file_read(const char *path, uint64_t max, char **out, size_t *n, const struct report *r)
+{
+	struct stat st;
+	struct text t = { 0 };
+	char block[1 << 16];
+	ssize_t got;
+	int fd = open(path, O_RDONLY | O_CLOEXEC);
+
+	if (fd < 0)
+		return fail(r, "read", path, errno);
+	if (fstat(fd, &st) == 0 && S_ISDIR(st.st_mode)) {
+		close(fd);
+		return fail(r, "read", path, EISDIR);
+	}
+	if (S_ISREG(st.st_mode) && st.st_size > 0 && (uint64_t)st.st_size <= max) {
+		t.s = malloc((size_t)st.st_size + 1); /* once, not by doubling */
+		t.cap = t.s ? (size_t)st.st_size + 1 : 0;
+	}
+	while ((got = read(fd, block, sizeof block)) != 0) {
+		if (got < 0 && errno == EINTR)
+			continue;
+		if (got < 0) {
+			int error = errno;
+			close(fd);
+			text_finish(&t);
+			return fail(r, "read", path, error);
+		}
+		text_add_bytes(&t, block, (size_t)got);
+		if (t.n > max) {
+			close(fd);
+			text_finish(&t);
+			return report_error(r, ST_RESOURCE,
+			                    "cannot read '%s': it is larger than %llu bytes", path,
+			                    (unsigned long long)max);
+		}
+	}
+	close(fd);
+	*n = t.n;
+	*out = text_take(&t);
+	if (!*out)
+		return report_error(r, ST_RESOURCE, "cannot read '%s': memory ran out", path);
+	return ST_OK;
+}
+
+enum status whole_file_create(struct whole_file *f, const char *path, const struct report *r)
+{
+	*f = (struct whole_file){ .path = strdup(path), .temp = text_print("%s.XXXXXX", path) };
+	if (!f->path || !f->temp) {
+		whole_file_abandon(f);
+		return report_error(r, ST_RESOURCE, "cannot write '%s': memory ran out", path);
+	}
+	int fd = mkostemp(f->temp, O_CLOEXEC);
+	if (fd < 0) {
+		int error = errno;
+		free(f->temp);
+		f->temp = NULL;
+		whole_file_abandon(f);
+		return fail(r, "write", path, error);
+	}
+	mode_t mask = umask(0);
+	umask(mask);
+	fchmod(fd, 0666 & ~mask);
+	f->stream = fdopen(fd, "w");
+	if (!f->stream) {
+		close(fd);
+		whole_file_abandon(f);
+		return fail(r, "write", path, ENOMEM);
+	}
+	return ST_OK;
+}
+
+/* The new name itself must survive a power cut. */
+static void sync_folder_of(const char *path)
+{
+	char *folder = path_folder(path);
+	int fd = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+
+	if (fd >= 0) {
+		fsync(fd);
+		close(fd);
+	}
+	free(folder);
+}
+
+enum status whole_file_commit(struct whole_file *f, const struct report *r)
+{
+	int error = 0;
+
+	errno = 0;
+	if (ferror(f->stream) || fflush(f->stream) || fsync(fileno(f->stream)))
+		error = errno ? errno : EIO;
+	if (fclose(f->stream) && !error)
+		error = errno;
+	f->stream = NULL;
+	if (!error && rename(f->temp, f->path))
+		error = errno;
+	if (error) {
+		enum status st = fail(r, "write", f->path, error);
+		whole_file_abandon(f);
+		return st;
+	}
+	sync_folder_of(f->path);
+	free(f->temp);
+	f->temp = NULL;
+	whole_file_abandon(f);
+	return ST_OK;
+}
+
+void whole_file_abandon(struct whole_file *f)
+{
+	if (f->stream)
+		fclose(f->stream);
+	if (f->temp)
+		unlink(f->temp);
+	free(f->temp);
+	free(f->path);
+	*f = (struct whole_file){ 0 };
+}
+
+enum status file_write(const char *path, const void *bytes, size_t n, const struct report *r)
+{
+	struct whole_file f;
+	enum status st = whole_file_create(&f, path, r);
+
+	if (st != ST_OK)
+		return st;
+	fwrite(bytes, 1, n, f.stream);
+	return whole_file_commit(&f, r);
+}
+
+enum status folder_make(const char *path, unsigned mode, const struct report *r)
+{
+	char *copy = strdup(path);
+
+	if (!copy)
+		return report_error(r, ST_RESOURCE, "cannot make folder '%s': memory ran out",
+		                    path);
+	for (char *p = copy + 1;; p++) {
+		if (*p && *p != '/')
+			continue;
+		char end = *p;
+		*p = 0;
+		if (mkdir(copy, mode) && errno != EEXIST && errno != EISDIR) {
+			enum status st = fail(r, "make folder", path, errno);
+			free(copy);
+			return st;
+		}
+		if (!end)
+			break;
+		*p = '/';
+	}
+	bool there = path_is_folder(copy);
+	free(copy);
+	return there ? ST_OK : fail(r, "make folder", path, ENOTDIR);
+}

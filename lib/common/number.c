@@ -1,0 +1,204 @@
+/* number.c - decimal numbers, read exactly and written shortest.
+ *
+ * Reading: up to 19 digits are held exactly in 64 bits. With at most 2^53 and a power of ten up to
+ * 10^22 both are exact doubles and one operation rounds right (Clinger 1990). Where long double
+ * has 64 bits of mantissa, powers up to 10^27 are exact in it too: one operation there errs by half
+ * a unit of its last place, which rounds right to double unless the extra bits lie next to a tie.
+ * What is left goes to strtod.
+ */
+#include "number.h"
+
+#include <errno.h>
+#include <float.h>
+#include <inttypes.h>
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double power10[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+	                          1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+	                          1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
+
+enum { POWER_DOUBLE = 22, DIGITS_MAX = 19 };
+
+#if LDBL_MANT_DIG == 64
+enum { POWER_LONG = 27 };
+static const long double power10_long[] = { 1e0L,  1e1L,  1e2L,  1e3L,  1e4L,  1e5L,  1e6L,
+	                                    1e7L,  1e8L,  1e9L,  1e10L, 1e11L, 1e12L, 1e13L,
+	                                    1e14L, 1e15L, 1e16L, 1e17L, 1e18L, 1e19L, 1e20L,
+	                                    1e21L, 1e22L, 1e23L, 1e24L, 1e25L, 1e26L, 1e27L };
+
+/* m 10^e by one rounding in 64 bits, where the second one, to 53, cannot go wrong. */
+static bool scale_long(uint64_t m, int e, double *out)
+{
+	long double x = (long double)m;
+	uint64_t bits;
+
+	if (e < -POWER_LONG || e > POWER_LONG)
+		return false;
+	x = e < 0 ? x / power10_long[-e] : x * power10_long[e];
+	memcpy(&bits, &x, sizeof bits);
+	unsigned extra = bits & 0x7ff;
+	if (extra >= 0x3ff && extra <= 0x401)
+		return false;
+	*out = (double)x;
+	return fabs(*out) >= DBL_MIN;
+}
+#else
+static bool scale_long(uint64_t m, int e, double *out)
+{
+	(void)m, (void)e, (void)out;
+	return false;
+}
+#endif
+
+/* The C locale's strtod on [s, end) with D exponents made E. */
+static double read_slowly(const char *s, const char *end)
+{
+	char small[128], *copy = small;
+	size_t n = (size_t)(end - s);
+	static locale_t c_locale;
+
+	if (!__atomic_load_n(&c_locale, __ATOMIC_ACQUIRE)) {
+		locale_t made = newlocale(LC_ALL_MASK, "C", (locale_t)0), none = (locale_t)0;
+		if (!__atomic_compare_exchange_n(&c_locale, &none, made, false, __ATOMIC_ACQ_REL,
+		                                 __ATOMIC_ACQUIRE))
+			freelocale(made);
+	}
+	if (n >= sizeof small) {
+		copy = malloc(n + 1);
+		if (!copy)
+			return NAN;
+	}
+	for (size_t i = 0; i < n; i++)
+		copy[i] = s[i] == 'd' || s[i] == 'D' ? 'e' : s[i];
+	copy[n] = 0;
+	double x = strtod_l(copy, NULL, c_locale);
+	if (copy != small)
+		free(copy);
+	return x;
+}
+
+static inline bool is_digit(char c)
+{
+	return (unsigned char)(c - '0') < 10;
+}
+
+bool number_read(const char **s, const char *end, double *out)
+{
+	const char *p = *s, *start = p;
+	bool negative = false, any = false;
+	uint64_t m = 0;
+	int digits = 0, exponent = 0;
+
+	if (p < end && (*p == '-' || *p == '+'))
+		negative = *p++ == '-';
+	for (; p < end && is_digit(*p); p++, any = true) {
+		if (digits < DIGITS_MAX)
+			m = 10 * m + (uint64_t)(*p - '0');
+		digits += m > 0;
+	}
+	if (p < end && *p == '.') {
+		const char *point = ++p;
+		int kept = 0;
+		for (; p < end && is_digit(*p); p++, any = true) {
+			if (digits < DIGITS_MAX) {
+				m = 10 * m + (uint64_t)(*p - '0');
+				kept = (int)(p - point) + 1;
+			}
+			digits += m > 0;
+		}
+		exponent = -kept;
+	}
+	if (!any)
+		return false;
+	if (p < end && (*p == 'e' || *p == 'E' || *p == 'd' || *p == 'D')) {
+		const char *q = p + 1;
+		bool down = false;
+		int e = 0;
+		if (q < end && (*q == '-' || *q == '+'))
+			down = *q++ == '-';
+		if (q < end && is_digit(*q)) {
+			for (; q < end && is_digit(*q); q++)
+				if (e < 100000)
+					e = 10 * e + (*q - '0');
+			exponent += down ? -e : e;
+			p = q;
+		}
+	}
+	*s = p;
+
+	double x = (double)m;
+	if (digits <= DIGITS_MAX && m <= (UINT64_C(1) << 53) && exponent >= -POWER_DOUBLE &&
+	    exponent <= POWER_DOUBLE)
+		x = exponent < 0 ? x / power10[-exponent] : x * power10[exponent];
+	else if (m == 0)
+		x = 0;
+	else if (digits > DIGITS_MAX || !scale_long(m, exponent, &x)) {
+		*out = read_slowly(start, p);
+		return !isnan(*out);
+	}
+	*out = negative ? -x : x;
+	return true;
+}
+
+bool number_read_integer(const char **s, const char *end, int64_t *out)
+{
+	const char *p = *s;
+	bool negative = false;
+	int64_t x = 0;
+
+	if (p < end && (*p == '-' || *p == '+'))
+		negative = *p++ == '-';
+	if (p >= end || !is_digit(*p))
+		return false;
+	for (; p < end && is_digit(*p); p++) {
+		int digit = *p - '0';
+		if (__builtin_mul_overflow(x, 10, &x) ||
+		    __builtin_sub_overflow(x, digit, &x)) /* kept negative: one more value */
+			return false;
+	}
+	if (!negative && x == INT64_MIN)
+		return false;
+	*out = negative ? x : -x;
+	*s = p;
+	return true;
+}
+
+bool number_parse(const char *s, double *out)
+{
+	const char *end = s + strlen(s);
+
+	return number_read(&s, end, out) && s == end && isfinite(*out);
+}
+
+bool number_parse_integer(const char *s, int64_t *out)
+{
+	const char *end = s + strlen(s);
+
+	return number_read_integer(&s, end, out) && s == end;
+}
+
+int number_write(char out[NUMBER_SIZE], double x)
+{
+	if (isnan(x))
+		return sprintf(out, "nan");
+	if (isinf(x))
+		return sprintf(out, x < 0 ? "-inf" : "inf");
+	if (x == (double)(int64_t)x && fabs(x) < 1e15 && !(x == 0 && signbit(x)))
+		return sprintf(out, "%" PRId64, (int64_t)x);
+	int n = 0;
+	for (int digits = 15; digits <= 17; digits++) {
+		double back;
+		n = sprintf(out, "%.*g", digits, x);
+		for (int i = 0; i < n; i++) /* a locale's point */
+			if (out[i] == ',')
+				out[i] = '.';
+		const char *s = out;
+		if (number_read(&s, out + n, &back) && back == x)
+			break;
+	}
+	return n;
+}
