@@ -1,0 +1,182 @@
+/* test_files.c - paths, and files that appear whole or not at all. */
+#include <fcntl.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "file.h"
+#include "path.h"
+#include "text.h"
+
+static char folder[] = "/tmp/batten-test-XXXXXX";
+
+static int make_folder(void **state)
+{
+	(void)state;
+	return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+	char *command = text_print("rm -rf '%s'", folder);
+	int rc = system(command);
+
+	(void)state;
+	free(command);
+	return rc;
+}
+
+static void paths(void **state)
+{
+	static const struct {
+		char *(*make)(const char *path);
+		const char *in, *out;
+	} rows[] = {
+		{ path_basic_name, "a/hull.igs", "hull" },
+		{ path_basic_name, "a.b/hull", "hull" },
+		{ path_basic_name, ".hidden", ".hidden" },
+		{ path_basic_name, "hull.map.exr", "hull.map" },
+		{ path_folder, "a/b.igs", "a" },
+		{ path_folder, "b.igs", "." },
+		{ path_folder, "/b", "/" },
+	};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+		char *got = rows[i].make(rows[i].in);
+		assert_string_equal(got, rows[i].out);
+		free(got);
+	}
+}
+
+static void absolute_paths(void **state)
+{
+	static const struct {
+		const char *path, *base, *out;
+	} rows[] = {
+		{ "/a/./b//../c", NULL, "/a/c" },
+		{ "x", "/a/b", "/a/b/x" },
+		{ "../x", "/a/b", "/a/x" },
+		{ "../../../x", "/a", "/x" },
+		{ "/", NULL, "/" },
+		{ "..", "/a", "/" },
+		{ "a...b/..c", "/", "/a...b/..c" },
+	};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+		char *got = path_absolute(rows[i].path, rows[i].base);
+		assert_string_equal(got, rows[i].out);
+		free(got);
+	}
+}
+
+static void a_file_appears_at_its_commit(void **state)
+{
+	char *path = path_join(folder, "whole"), *got;
+	struct whole_file f;
+	size_t n;
+
+	(void)state;
+	assert_int_equal(whole_file_create(&f, path, NULL), ST_OK);
+	fputs("batten", f.stream);
+	fflush(f.stream);
+	assert_false(path_exists(path));
+	assert_int_equal(whole_file_commit(&f, NULL), ST_OK);
+	assert_int_equal(file_read(path, 100, &got, &n, NULL), ST_OK);
+	assert_string_equal(got, "batten");
+	assert_int_equal(n, 6);
+	free(got);
+	assert_int_equal(file_read(path, 5, &got, &n, NULL), ST_RESOURCE);
+	free(path);
+}
+
+static void an_abandoned_file_leaves_nothing(void **state)
+{
+	char *sub = path_join(folder, "empty"), *path = path_join(sub, "f");
+	struct whole_file f;
+
+	(void)state;
+	assert_int_equal(folder_make(sub, 0700, NULL), ST_OK);
+	assert_int_equal(whole_file_create(&f, path, NULL), ST_OK);
+	fputs("half", f.stream);
+	whole_file_abandon(&f);
+	assert_int_equal(rmdir(sub), 0);
+	free(path);
+	free(sub);
+}
+
+static void a_failed_write_is_told(void **state)
+{
+	char *path = path_join(folder, "kept"), *got;
+	struct report_store store;
+	struct whole_file f;
+	size_t n;
+
+	(void)state;
+	assert_int_equal(file_write(path, "old", 3, NULL), ST_OK);
+	report_store_init(&store);
+	assert_int_equal(whole_file_create(&f, path, &store.report), ST_OK);
+	int full = open("/dev/full", O_WRONLY);
+	assert_true(full >= 0);
+	assert_true(dup2(full, fileno(f.stream)) >= 0);
+	close(full);
+	fputs("new", f.stream);
+	assert_int_equal(whole_file_commit(&f, &store.report), ST_RESOURCE);
+	assert_non_null(strstr(store.error, "No space left"));
+	assert_int_equal(file_read(path, 100, &got, &n, NULL), ST_OK);
+	assert_string_equal(got, "old");
+	free(got);
+	free(path);
+}
+
+static void what_cannot_be_read(void **state)
+{
+	struct report_store store;
+	char *got;
+	size_t n;
+
+	(void)state;
+	report_store_init(&store);
+	assert_int_equal(file_read("/nowhere/x", 100, &got, &n, &store.report), ST_INPUT);
+	assert_non_null(strstr(store.error, "/nowhere/x"));
+	assert_int_equal(file_read(folder, 100, &got, &n, &store.report), ST_INPUT);
+	assert_int_equal(file_write("/nowhere/x", "", 0, &store.report), ST_INPUT);
+}
+
+static void folders_are_made_with_those_above(void **state)
+{
+	char *path = path_join(folder, "a/b/c"), *up;
+
+	(void)state;
+	assert_int_equal(folder_make(path, 0700, NULL), ST_OK);
+	assert_int_equal(folder_make(path, 0700, NULL), ST_OK);
+	assert_true(path_is_folder(path));
+	up = path_find_upward(path, "a");
+	assert_string_equal(up, folder);
+	free(up);
+	free(path);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(paths),
+		cmocka_unit_test(absolute_paths),
+		cmocka_unit_test(a_file_appears_at_its_commit),
+		cmocka_unit_test(an_abandoned_file_leaves_nothing),
+		cmocka_unit_test(a_failed_write_is_told),
+		cmocka_unit_test(what_cannot_be_read),
+		cmocka_unit_test(folders_are_made_with_those_above),
+	};
+
+	return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
