@@ -3,6 +3,7 @@
 #ifndef BATTEN_EXR_H
 #define BATTEN_EXR_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "report.h"
@@ -11,7 +12,7 @@
 enum { EXR_CHANNELS_MAX = 64 };
 
 struct exr_channel {
-	const char *name; /* borrowed; "R", "N.X", "K" */
+	const char *name; /* borrowed; "R", "N.X", "K"; each name once */
 	bool half;        /* half float in the file; else float */
 };
 
@@ -21,7 +22,7 @@ struct exr_attribute {
 
 struct exr_image {
 	int width, height;
-	int tile; /* tile width and height in pixels */
+	int tile;                           /* tile width and height in pixels */
 	const struct exr_channel *channels; /* borrowed */
 	int n_channels;
 	const struct exr_attribute *attributes; /* borrowed */
@@ -38,30 +39,45 @@ void exr_tile_window(const struct exr_image *im, size_t i, int *x, int *y, int *
 
 /*
  * Pack tile i: planes[c] holds the tile's values of channel c, w x h floats without gaps; half
- * channels are converted to nearest. The bytes are appended to *out. Level 2 zip.
- * Thread: any. Errors: ST_RESOURCE.
+ * channels are converted to nearest, ties to even. The bytes are appended to *out. Level 2 zip.
+ * The bytes depend on nothing but size and values. Thread: any. Errors: ST_RESOURCE.
  */
 enum status exr_pack(const struct exr_image *im, size_t i, const float *const *planes,
                      struct text *out);
 
-/* Give tile i's packed bytes. */
+/* Give tile i's packed bytes, valid until the next call. */
 typedef enum status exr_source(void *data, size_t i, const char **bytes, size_t *n);
 
-/* Write the whole file under `path` (which the caller renames: give a temporary name). */
+/*
+ * Write the whole file under `path` (which the caller renames: give a temporary name). Tiles are
+ * asked for in rising order. A failure of the source is given back as it is; on any failure
+ * nothing is left under `path`. Errors: ST_INPUT (folder missing, not writable), ST_RESOURCE (full disk).
+ */
 enum status exr_write(const char *path, const struct exr_image *im, exr_source *source, void *data,
                       const struct report *r);
 
 /* A read image: all channels as float. */
 struct exr_picture {
 	int width, height, n_channels;
-	char **names;  /* owned */
-	float **planes; /* owned, width x height each, rows from the top */
-	struct { char *name, *value; } *attributes; /* owned; string attributes only */
+	char **names;   /* owned; sorted */
+	float **planes; /* owned, width x height each, rows from the top; NULL: attributes only */
+	struct exr_pair {
+		char *name, *value;
+	} * attributes; /* owned; string attributes only */
 	int n_attributes;
 };
+
+/*
+ * Read all channels of the first part, tiled (finest level) or in scan lines, also of other
+ * programs. Nothing larger than the file can hold is allocated. *out is empty on failure.
+ * Errors: ST_INPUT (missing, not an image, damaged, deep or subsampled), ST_RESOURCE.
+ */
 enum status exr_read(struct exr_picture *out, const char *path, const struct report *r);
+
+/* Size, names of channels and string attributes, without the pixels. */
 enum status exr_read_attributes(struct exr_picture *out, const char *path, const struct report *r);
 void exr_picture_finish(struct exr_picture *p);
 const float *exr_plane(const struct exr_picture *p, const char *name); /* NULL if none */
+const char *exr_text(const struct exr_picture *p, const char *name);   /* attribute; NULL if none */
 
 #endif

@@ -1,0 +1,232 @@
+/* exr_write.c - tiles of OpenEXR images packed one by one, and files made of packed tiles. */
+#include "exr.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <openexr.h>
+
+enum { ZIP_LEVEL = 2 };
+
+int exr_tiles_across(const struct exr_image *im)
+{
+	return (im->width - 1) / im->tile + 1;
+}
+
+int exr_tiles_down(const struct exr_image *im)
+{
+	return (im->height - 1) / im->tile + 1;
+}
+
+size_t exr_tiles(const struct exr_image *im)
+{
+	return (size_t)exr_tiles_across(im) * exr_tiles_down(im);
+}
+
+static int min_int(int a, int b)
+{
+	return a < b ? a : b;
+}
+
+void exr_tile_window(const struct exr_image *im, size_t i, int *x, int *y, int *w, int *h)
+{
+	size_t across = exr_tiles_across(im);
+	*x = (int)(i % across) * im->tile;
+	*y = (int)(i / across) * im->tile;
+	*w = min_int(im->tile, im->width - *x);
+	*h = min_int(im->tile, im->height - *y);
+}
+
+/* Where a context's bytes go, and what went wrong. */
+struct sink {
+	int fd;    /* -1: nowhere */
+	int error; /* errno of the first failed write */
+	char message[256];
+};
+
+static void keep_message(exr_const_context_t f, exr_result_t code, const char *message)
+{
+	void *data = NULL;
+	(void)code;
+	if (exr_get_user_data(f, &data) != EXR_ERR_SUCCESS || !data)
+		return;
+	struct sink *sink = data;
+	strncpy(sink->message, message, sizeof sink->message - 1);
+}
+
+static int64_t sink_write(exr_const_context_t f, void *data, const void *bytes, uint64_t n,
+                          uint64_t offset, exr_stream_error_func_ptr_t error)
+{
+	struct sink *sink = data;
+	uint64_t done = 0;
+	(void)f, (void)error;
+	while (sink->fd >= 0 && done < n) {
+		ssize_t k = pwrite(sink->fd, (const char *)bytes + done, n - done, offset + done);
+		if (k < 0 && errno == EINTR)
+			continue;
+		if (k <= 0) {
+			if (!sink->error)
+				sink->error = k < 0 ? errno : ENOSPC;
+			return -1;
+		}
+		done += k;
+	}
+	return n;
+}
+
+/* A context with the header of a width x height image written. */
+static exr_result_t begin(exr_context_t *out, const char *name, struct sink *sink,
+                          const struct exr_image *im, int width, int height)
+{
+	exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
+	init.error_handler_fn = keep_message;
+	init.user_data = sink;
+	init.write_fn = sink_write;
+	init.zip_level = ZIP_LEVEL;
+
+	exr_context_t f;
+	exr_result_t e = exr_start_write(&f, name, EXR_WRITE_FILE_DIRECTLY, &init);
+	if (e)
+		return e;
+	int part = 0;
+	e = exr_set_longname_support(f, 1);
+	if (!e)
+		e = exr_add_part(f, NULL, EXR_STORAGE_TILED, &part);
+	if (!e)
+		e = exr_initialize_required_attr_simple(f, part, width, height,
+		                                        EXR_COMPRESSION_ZIP);
+	if (!e)
+		e = exr_set_tile_descriptor(f, part, im->tile, im->tile, EXR_TILE_ONE_LEVEL,
+		                            EXR_TILE_ROUND_DOWN);
+	for (int c = 0; c < im->n_channels && !e; c++)
+		e = exr_add_channel(f, part, im->channels[c].name,
+		                    im->channels[c].half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT,
+		                    EXR_PERCEPTUALLY_LINEAR, 1, 1);
+	for (int i = 0; i < im->n_attributes && sink->fd >= 0 && !e; i++)
+		e = exr_attr_set_string(f, part, im->attributes[i].name, im->attributes[i].value);
+	if (!e)
+		e = exr_write_header(f);
+	if (e)
+		exr_finish(&f);
+	else
+		*out = f;
+	return e;
+}
+
+static exr_result_t take_chunk(exr_encode_pipeline_t *e)
+{
+	struct text *out = e->encoding_user_data;
+	text_add_bytes(out, e->compressed_buffer, e->compressed_bytes);
+	return out->failed ? EXR_ERR_OUT_OF_MEMORY : EXR_ERR_SUCCESS;
+}
+
+/* The library keeps channels sorted by name; planes come in the image's order. */
+static const float *plane_of(const struct exr_image *im, const float *const *planes,
+                             const char *name)
+{
+	for (int c = 0; c < im->n_channels; c++)
+		if (!strcmp(im->channels[c].name, name))
+			return planes[c];
+	return NULL;
+}
+
+/*
+ * A tile's chunk does not depend on where it lies, so it is packed as the only tile of an image of
+ * its own size: a context costs microseconds, and threads share nothing.
+ */
+enum status exr_pack(const struct exr_image *im, size_t i, const float *const *planes,
+                     struct text *out)
+{
+	int x, y, w, h;
+	exr_tile_window(im, i, &x, &y, &w, &h);
+
+	struct sink nowhere = { .fd = -1 };
+	exr_context_t f;
+	if (begin(&f, "tile", &nowhere, im, w, h))
+		return ST_RESOURCE;
+	exr_encode_pipeline_t pipe = EXR_ENCODE_PIPELINE_INITIALIZER;
+	exr_chunk_info_t chunk;
+	exr_result_t e = exr_write_tile_chunk_info(f, 0, 0, 0, 0, 0, &chunk);
+	if (!e)
+		e = exr_encoding_initialize(f, 0, &chunk, &pipe);
+	for (int c = 0; c < pipe.channel_count && !e; c++) {
+		exr_coding_channel_info_t *ch = &pipe.channels[c];
+		ch->encode_from_ptr = (const uint8_t *)plane_of(im, planes, ch->channel_name);
+		ch->user_data_type = EXR_PIXEL_FLOAT;
+		ch->user_bytes_per_element = sizeof(float);
+		ch->user_pixel_stride = sizeof(float);
+		ch->user_line_stride = w * (int)sizeof(float);
+	}
+	if (!e)
+		e = exr_encoding_choose_default_routines(f, 0, &pipe);
+	pipe.encoding_user_data = out;
+	pipe.write_fn = take_chunk;
+	if (!e)
+		e = exr_encoding_run(f, 0, &pipe);
+	exr_encoding_destroy(f, &pipe);
+	exr_finish(&f);
+	return e ? ST_RESOURCE : ST_OK;
+}
+
+static enum status write_failed(const char *path, const struct sink *sink, exr_result_t e,
+                                const struct report *r)
+{
+	if (sink->error)
+		return report_error(r, ST_RESOURCE,
+		                    "cannot write '%s': %s; make room and try again", path,
+		                    strerror(sink->error));
+	if (e == EXR_ERR_OUT_OF_MEMORY)
+		return report_error(r, ST_RESOURCE, "cannot write '%s': no memory", path);
+	return report_error(r, ST_INTERNAL, "cannot write '%s': %s", path,
+	                    sink->message[0] ? sink->message : exr_get_default_error_message(e));
+}
+
+static enum status write_tiles(exr_context_t f, const char *path, const struct exr_image *im,
+                               const struct sink *sink, exr_source *source, void *data,
+                               const struct report *r)
+{
+	int across = exr_tiles_across(im);
+	size_t n = exr_tiles(im);
+	for (size_t i = 0; i < n; i++) {
+		const char *bytes;
+		size_t size;
+		enum status st = source(data, i, &bytes, &size);
+		if (st)
+			return st;
+		exr_result_t e = exr_write_tile_chunk(f, 0, (int)(i % across), (int)(i / across), 0,
+		                                      0, bytes, size);
+		if (e)
+			return write_failed(path, sink, e, r);
+	}
+	return ST_OK;
+}
+
+enum status exr_write(const char *path, const struct exr_image *im, exr_source *source, void *data,
+                      const struct report *r)
+{
+	struct sink sink = { .fd = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) };
+	if (sink.fd < 0)
+		return report_error(r, status_from_errno(errno), "cannot write '%s': %s", path,
+		                    strerror(errno));
+	exr_context_t f;
+	enum status st = ST_OK;
+	exr_result_t e = begin(&f, path, &sink, im, im->width, im->height);
+	if (e) {
+		st = write_failed(path, &sink, e, r);
+	} else {
+		st = write_tiles(f, path, im, &sink, source, data, r);
+		/* the table of tile offsets is written here */
+		e = exr_finish(&f);
+		if (!st && (e || sink.error))
+			st = write_failed(path, &sink, e, r);
+	}
+	if (close(sink.fd) < 0 && !st) {
+		sink.error = errno;
+		st = write_failed(path, &sink, EXR_ERR_SUCCESS, r);
+	}
+	if (st)
+		unlink(path);
+	return st;
+}
