@@ -28,7 +28,7 @@ enum message_way { FROM_WORKER = 1, TO_WORKER = 2, FROM_CLIENT = 4, FROM_SERVICE
 	X(PROGRESS, 2, FROM_WORKER, "done:i total:i phase:s?")                                     \
 	X(NOTE, 3, FROM_WORKER, "level:s text:s")                                                  \
 	X(UNIT, 4, FROM_WORKER, "unit:i")                                                          \
-	X(RESULT, 5, FROM_WORKER, "path:s kind:s figures:o?")                                      \
+	X(RESULT, 5, FROM_WORKER, "path:s kind:s figures:o? up_to_date:b?")                        \
 	X(ERROR, 6, FROM_WORKER | FROM_SERVICE, "class:s text:s id:i?")                            \
 	X(DONE, 7, FROM_WORKER, "wall_s:n? cpu_s:n? peak_kib:i?")                                  \
 	X(START, 64, TO_WORKER, "job:s")                                                           \

@@ -1,8 +1,11 @@
 /* part.h - the part file: finished units of a computation, safe against a kill at any instant.
  *
- * Layout (docs/formats.md): a header with a key (what is computed, from what), then one record a
- * unit in the order they came: unit number, length, checksum, bytes. A record is written by one
- * write; a torn or damaged one at the end is cut off when the file is opened again.
+ * Layout, all numbers little-endian:
+ *	"BATTENPT", u32 layout (1), u32 length of key, u64 units in all, key, u64 checksum of that
+ * then one record a unit, in the order they came:
+ *	u64 unit, u64 length, u64 checksum of the bytes, u64 checksum of these three, bytes
+ * A record is written by one write; a torn one at the end is cut off when the file is opened again,
+ * a unit whose bytes are damaged counts as missing.
  */
 #ifndef BATTEN_PART_H
 #define BATTEN_PART_H
@@ -17,8 +20,10 @@ struct part; /* opaque; an open part file */
 
 /*
  * Open or make the part file of a computation with that key (text: worker, version, input hash,
- * parameters, vector level) and that many units. A file with another key is begun anew.
- * Errors: ST_RESOURCE, ST_INPUT (folder missing, not writable, in use by another process).
+ * parameters, vector level) and that many units. A file with another key is begun anew, and a
+ * warning says so; a file that is no part file is left alone.
+ * Errors: ST_RESOURCE, ST_INPUT (folder missing, not writable, in use by another process, not a
+ * part file).
  */
 enum status part_open(struct part **out, const char *path, const char *key, size_t n_units,
                       const struct report *r);
@@ -38,5 +43,14 @@ enum status part_get(struct part *p, size_t unit, const char **bytes, size_t *n,
 
 /* Close and take the file away. */
 void part_remove(struct part *p);
+
+/*
+ * Take over the units that another part file of the same computation has: shards come together.
+ * That file is only read. Errors: ST_INPUT (missing, in use, of another computation), ST_RESOURCE.
+ */
+enum status part_merge(struct part *into, const char *path, const struct report *r);
+
+/* Take away the file at `path` if it is a part file that nobody uses. */
+void part_discard(const char *path);
 
 #endif
