@@ -5,9 +5,9 @@
 #include "report.h"
 
 struct project {
-	char *folder;  /* owned; absolute */
-	char *hidden;  /* owned; folder/.batten */
-	char *socket;  /* owned; $XDG_RUNTIME_DIR/batten/HASH, else /tmp/batten-UID/HASH */
+	char *folder; /* owned; absolute */
+	char *hidden; /* owned; folder/.batten */
+	char *socket; /* owned; $XDG_RUNTIME_DIR/batten/HASH, else /tmp/batten-UID/HASH */
 };
 
 /* The nearest folder upward from `from` (NULL: the current one) that holds .batten/, else `from`.

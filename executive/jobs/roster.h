@@ -8,7 +8,7 @@
 
 /* One executable batten-NAME. */
 struct roster_worker {
-	char *name, *path; /* owned */
+	char *name, *path;   /* owned */
 	json_t *description; /* owned; as --describe prints it; NULL where broken */
 	char *broken;        /* owned; why, or NULL */
 };
@@ -26,6 +26,10 @@ struct roster {
  */
 enum status roster_read(struct roster *out, const struct project *p, const char *only,
                         const struct report *r);
+
+/* Path of one worker, fresh, without running it. Errors: ST_PARAMETER (there is none), ST_RESOURCE. */
+enum status roster_locate(char **out, const struct project *p, const char *name,
+                          const struct report *r);
 void roster_finish(struct roster *x);
 const struct roster_worker *roster_find(const struct roster *x, const char *name);
 

@@ -9,13 +9,15 @@
 
 /* key, type (i integer, s seconds, w word), default, min, max, help */
 #define SETTINGS_MAP(X)                                                                            \
-	X(JOBS, "jobs", 'i', "0", 0, 1024, "jobs running at once; 0: as many as processors, 4 at least") \
+	X(JOBS, "jobs", 'i', "0", 0, 1024,                                                         \
+	  "jobs running at once; 0: as many as processors, 4 at least")                            \
 	X(THREADS, "threads", 'i', "1", 1, 1024, "threads of one job")                             \
 	X(MEMORY, "memory", 'i', "0", 0, 1 << 30, "memory of one job in MiB; 0: no limit")         \
 	X(NICE, "nice", 'i', "5", 0, 19, "niceness of workers")                                    \
 	X(CANCEL_GRACE, "cancel-grace", 's', "2", 0, 3600, "seconds from CANCEL to SIGTERM")       \
 	X(TERM_GRACE, "term-grace", 's', "3", 0, 3600, "seconds from SIGTERM to SIGKILL")          \
 	X(HELLO_GRACE, "hello-grace", 's', "10", 0.1, 3600, "seconds a worker has to say HELLO")   \
+	X(END_GRACE, "end-grace", 's', "5", 0.1, 3600, "seconds from a worker's pipe to its exit") \
 	X(IDLE, "idle", 's', "60", 0.1, 86400, "seconds after which an idle service ends")         \
 	X(COLOR, "color", 'w', "auto", 0, 0, "auto, always or never")
 

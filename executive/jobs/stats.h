@@ -8,6 +8,7 @@
 #include <sys/types.h>
 
 #include "report.h"
+#include "text.h"
 
 /* state, color on dark ground, on light ground, glyph in a terminal, is the job over (1) */
 #define JOB_STATE_MAP(X)                                                                           \
@@ -53,8 +54,8 @@ struct Stats {
 	int priority;
 	int64_t done, total; /* units */
 	char *phase;
-	double eta_s;        /* NaN: not known */
-	pid_t pid;           /* the worker's, 0: none */
+	double eta_s; /* NaN: not known */
+	pid_t pid;    /* the worker's, 0: none */
 	double submitted, started, ended;
 	double wall_s, suspended_s, cpu_s; /* NaN: not known */
 	int64_t peak_kib;                  /* -1: not known */
@@ -72,13 +73,23 @@ struct Stats {
 	char *log; /* path */
 };
 
+/* Nothing known; every number that may be unknown says so. */
+void stats_init(struct Stats *s);
 void stats_finish(struct Stats *s);
+void stats_drop_outputs(struct Stats *s);
 enum status stats_copy(struct Stats *out, const struct Stats *s);
 
 /* The object that jobs --json shows (DESIGN: id worker state color fraction eta_s file_name
  * path_name pid host group reason wall_s suspended_s cpu_s peak_kib inputs outputs log), plus
- * priority, phase, after, parameters, output, submitted, started, ended. New reference. */
+ * priority, done, total, phase, after, parameters, output, threads, memory_mib, force, submitted,
+ * started, ended. New reference; NULL for want of memory. */
 json_t *stats_to_json(const struct Stats *s);
+
+/* The same object as text, appended; several times quicker, for long lists. */
+void stats_write(struct text *t, const struct Stats *s);
+
+/* What is missing is not known. Errors: ST_INPUT (no object, no such state, an input without path),
+ * ST_RESOURCE. */
 enum status stats_from_json(struct Stats *out, const json_t *o);
 
 double stats_fraction(const struct Stats *s); /* 0 .. 1, NaN where not known */
