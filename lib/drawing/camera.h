@@ -19,14 +19,17 @@ struct camera {
 /*
  * Look at the box so that it fits with a margin of 6 % a side. `view` is
  *	three-quarter (default) | front | back | left | right | top | bottom | AZIMUTH,ELEVATION
- * in degrees (azimuth from +x to +y of where the eye stands), optionally followed by
- * :perspective or :orthographic (default orthographic) and, perspective, @ANGLE in degrees.
- * Errors: ST_PARAMETER with what is allowed.
+ * in degrees (azimuth from +x to +y of where the eye stands, elevation -90 to 90), optionally
+ * followed by :orthographic (default) or :perspective, and that by @ANGLE in degrees, of the smaller
+ * side (default 30). front stands at -y, right at +x; top and bottom have +x to the right. The whole
+ * box is before the eye. view NULL or "" is the default.
+ * Errors: ST_PARAMETER with what is allowed; ST_INPUT for an empty box.
  */
 enum status camera_fit(struct camera *out, const char *view, const struct box *box, int width,
                        int height, const struct report *r);
 
-/* Ray through image point (x, y) in pixels, (0, 0) the upper left corner of the upper left pixel. */
+/* Ray through image point (x, y) in pixels, (0, 0) the upper left corner of the upper left pixel.
+ * direction is of unit length; its length along the ray is not the depth of a perspective camera. */
 void camera_ray(const struct camera *c, double x, double y, struct vec3 *origin,
                 struct vec3 *direction);
 
