@@ -7,8 +7,9 @@
 
 /*
  * All patches of a surface over its domain: spans[0] x spans[1] patches, each order[0] x order[1]
- * homogeneous points (u outer). Neighbours share their border points to the bit; the two ends of a
- * direction that is closed (within 1e-9 of the size) share theirs too.
+ * homogeneous points (u outer). Neighbours share their border points to the bit, but at a knot that
+ * stands `order` times, where the surface may break; the two ends of a direction that is closed
+ * (homogeneous points within 1e-9 of the size) share theirs too.
  * Patch (a, b) covers [breaks[0][a], breaks[0][a+1]] x [breaks[1][b], breaks[1][b+1]].
  */
 struct bezier_net {

@@ -15,8 +15,8 @@
 enum { ORDER_MIN = 2, ORDER_MAX = 26 };
 
 /*
- * What a knot vector must satisfy: order in range, n >= order, finite, not decreasing, no interior
- * knot more than order times, a domain of positive length.
+ * What a knot vector must satisfy: order in range, n >= order, finite, not decreasing, no knot more
+ * than order times, a domain of positive length.
  * Errors: ST_INPUT, with the place in the sentence; `what` names the thing ("surface 3, u").
  */
 enum status knots_check(int order, int n, const double *knots, const char *what,
@@ -30,6 +30,13 @@ int knots_span(int order, int n, const double *knots, double t);
 
 /* As knots_span, but t at an interior knot belongs to the span that ends there. */
 int knots_span_left(int order, int n, const double *knots, double t);
+
+/*
+ * Span whose polynomial stands for t in a domain that is a part of the knots': as knots_span, but
+ * at and beyond the domain's upper end the span that ends there, below its lower end the one that
+ * begins there.
+ */
+int knots_domain_span(int order, int n, const double *knots, const double domain[2], double t);
 
 /*
  * Basis functions of span s at t and their derivatives to order d: out[k * order + j] is the k-th

@@ -1,0 +1,217 @@
+/* surface.c - NURBS surfaces: making, checking, evaluating. */
+#include "surface.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "basis_inline.h"
+#include "homogeneous.h"
+
+enum status surface_init(struct surface *s, const int order[2], const int n[2])
+{
+	*s = (struct surface){ .order = { order[0], order[1] }, .n = { n[0], n[1] } };
+	if (order[0] < 1 || order[1] < 1 || n[0] < 1 || n[1] < 1 ||
+	    (size_t)n[0] > (size_t)1 << 30 || (size_t)n[0] * n[1] > (size_t)1 << 30)
+		return ST_RESOURCE;
+	for (int d = 0; d < 2; d++)
+		s->knots[d] = calloc((size_t)n[d] + order[d], sizeof(double));
+	s->points = calloc((size_t)n[0] * n[1], 4 * sizeof(double));
+	if (s->knots[0] && s->knots[1] && s->points)
+		return ST_OK;
+	surface_finish(s);
+	return ST_RESOURCE;
+}
+
+void surface_finish(struct surface *s)
+{
+	if (!s)
+		return;
+	free(s->knots[0]);
+	free(s->knots[1]);
+	free(s->points);
+	*s = (struct surface){ 0 };
+}
+
+enum status surface_copy(struct surface *out, const struct surface *s)
+{
+	struct surface fresh;
+	enum status st = surface_init(&fresh, s->order, s->n);
+	if (st != ST_OK)
+		return st;
+	for (int d = 0; d < 2; d++) {
+		memcpy(fresh.knots[d], s->knots[d], sizeof(double) * (s->n[d] + s->order[d]));
+		memcpy(fresh.domain[d], s->domain[d], sizeof s->domain[d]);
+		fresh.periodic[d] = s->periodic[d];
+	}
+	memcpy(fresh.points, s->points, 4 * sizeof(double) * s->n[0] * s->n[1]);
+	fresh.rational = s->rational;
+	*out = fresh;
+	return ST_OK;
+}
+
+enum status surface_check(struct surface *s, const char *what, const struct report *r)
+{
+	char name[200];
+	for (int d = 0; d < 2; d++) {
+		snprintf(name, sizeof name, "%s, %c", what, "uv"[d]);
+		enum status st = knots_check(s->order[d], s->n[d], s->knots[d], name, r);
+		if (st != ST_OK)
+			return st;
+	}
+	enum status st = points_check(s->points, s->n[0], s->n[1], what, &s->rational, r);
+	for (int d = 0; d < 2 && st == ST_OK; d++) {
+		snprintf(name, sizeof name, "%s, %c", what, "uv"[d]);
+		st = domain_check(s->domain[d], s->knots[d][s->order[d] - 1], s->knots[d][s->n[d]],
+		                  name, r);
+	}
+	if (st != ST_OK)
+		return st;
+	if (!(surface_size(s) > 0)) {
+		struct vec3 p = surface_get_point(s, 0, 0, NULL);
+		return report_error(r, ST_INPUT,
+		                    "%s: all %d control points are the point %g %g %g, expected a "
+		                    "surface; leave it out",
+		                    what, s->n[0] * s->n[1], p.x, p.y, p.z);
+	}
+	return ST_OK;
+}
+
+void surface_set_point(struct surface *s, int i, int j, struct vec3 p, double w)
+{
+	double *q = s->points + 4 * ((size_t)i * s->n[1] + j);
+	q[0] = p.x * w;
+	q[1] = p.y * w;
+	q[2] = p.z * w;
+	q[3] = w;
+}
+
+struct vec3 surface_get_point(const struct surface *s, int i, int j, double *w)
+{
+	const double *q = s->points + 4 * ((size_t)i * s->n[1] + j);
+	if (w)
+		*w = q[3];
+	return vec3(q[0] / q[3], q[1] / q[3], q[2] / q[3]);
+}
+
+void surface_derivatives(const struct surface *s, double u, double v, int d, struct vec3 *out)
+{
+	double basis[2][ORDER_MAX * ORDER_MAX];
+	double h[ORDER_MAX * ORDER_MAX][4];
+	const int ku = s->order[0], kv = s->order[1];
+	const double at[2] = { u, v };
+	int span[2], top[2];
+	for (int e = 0; e < 2; e++) {
+		top[e] = d < s->order[e] ? d : s->order[e] - 1;
+		span[e] = knots_domain_span(s->order[e], s->n[e], s->knots[e], s->domain[e], at[e]);
+		knots_basis(s->order[e], s->knots[e], span[e], at[e], top[e], basis[e]);
+	}
+	const double *p = s->points + 4 * ((size_t)(span[0] - ku + 1) * s->n[1] + span[1] - kv + 1);
+	for (int l = 0; l <= top[1]; l++) {
+		point4 row[ORDER_MAX];
+		for (int i = 0; i < ku; i++) {
+			const double *q = p + (size_t)4 * s->n[1] * i;
+			row[i] = (point4){ 0 };
+			for (int j = 0; j < kv; j++)
+				point4_add(&row[i], basis[1][l * kv + j], q + 4 * j);
+		}
+		for (int k = 0; k <= top[0] && (k + l <= d); k++) {
+			point4 sum = { 0 };
+			for (int i = 0; i < ku; i++)
+				sum += basis[0][k * ku + i] * row[i];
+			memcpy(h[k * ORDER_MAX + l], &sum, sizeof sum);
+		}
+	}
+	if (s->rational) {
+		quotient_surface(top, (const double(*)[4])h, ORDER_MAX, d, out);
+		return;
+	}
+	for (int k = 0; k <= d; k++)
+		for (int l = 0; k + l <= d; l++) {
+			const double *a = h[k * ORDER_MAX + l];
+			out[k * (d + 1) + l] =
+			        k <= top[0] && l <= top[1] ? vec3(a[0], a[1], a[2]) : vec3(0, 0, 0);
+		}
+}
+
+/* The net of a span, contracted with the basis of v and then of u; du, dv only where `first`. */
+BATTEN_INLINE void evaluate(const struct surface *s, double u, double v, const int ku, const int kv,
+                            const bool first, point4 *p, point4 *du, point4 *dv)
+{
+	double bu[ORDER_MAX], cu[ORDER_MAX], bv[ORDER_MAX], cv[ORDER_MAX];
+	const int a = knots_domain_span(ku, s->n[0], s->knots[0], s->domain[0], u);
+	const int b = knots_domain_span(kv, s->n[1], s->knots[1], s->domain[1], v);
+	basis_inline(ku, s->knots[0], a, u, bu, first ? cu : NULL);
+	basis_inline(kv, s->knots[1], b, v, bv, first ? cv : NULL);
+	const double *q = s->points + 4 * ((size_t)(a - ku + 1) * s->n[1] + b - kv + 1);
+	point4 sum = { 0 }, sum_u = { 0 }, sum_v = { 0 };
+	for (int i = 0; i < ku; i++, q += (size_t)4 * s->n[1]) {
+		point4 row = { 0 }, row_v = { 0 };
+		for (int j = 0; j < kv; j++) {
+			point4_add(&row, bv[j], q + 4 * j);
+			if (first)
+				point4_add(&row_v, cv[j], q + 4 * j);
+		}
+		sum += bu[i] * row;
+		if (first) {
+			sum_u += cu[i] * row;
+			sum_v += bu[i] * row_v;
+		}
+	}
+	*p = sum;
+	*du = sum_u;
+	*dv = sum_v;
+}
+
+/* The commonest orders get code of their own, unrolled. */
+BATTEN_INLINE void evaluate_any(const struct surface *s, double u, double v, const bool first,
+                                point4 *p, point4 *du, point4 *dv)
+{
+	const int ku = s->order[0], kv = s->order[1];
+	if (ku == 4 && kv == 4)
+		evaluate(s, u, v, 4, 4, first, p, du, dv);
+	else if (ku == 3 && kv == 3)
+		evaluate(s, u, v, 3, 3, first, p, du, dv);
+	else if (ku == 6 && kv == 6)
+		evaluate(s, u, v, 6, 6, first, p, du, dv);
+	else
+		evaluate(s, u, v, ku, kv, first, p, du, dv);
+}
+
+struct vec3 surface_point(const struct surface *s, double u, double v)
+{
+	point4 p, none;
+	evaluate_any(s, u, v, false, &p, &none, &none);
+	if (!s->rational)
+		return vec3(p[0], p[1], p[2]);
+	double w = 1 / p[3];
+	return vec3(p[0] * w, p[1] * w, p[2] * w);
+}
+
+void surface_tangents(const struct surface *s, double u, double v, struct vec3 *p, struct vec3 *du,
+                      struct vec3 *dv)
+{
+	point4 a, b, c;
+	evaluate_any(s, u, v, true, &a, &b, &c);
+	if (s->rational) {
+		const double w = 1 / a[3];
+		a *= w;
+		b = (b - b[3] * a) * w;
+		c = (c - c[3] * a) * w;
+	}
+	*p = vec3(a[0], a[1], a[2]);
+	*du = vec3(b[0], b[1], b[2]);
+	*dv = vec3(c[0], c[1], c[2]);
+}
+
+double surface_size(const struct surface *s)
+{
+	struct vec3 lo = surface_get_point(s, 0, 0, NULL), hi = lo;
+	for (int i = 0; i < s->n[0]; i++)
+		for (int j = 0; j < s->n[1]; j++) {
+			struct vec3 p = surface_get_point(s, i, j, NULL);
+			lo = vec3(fmin(lo.x, p.x), fmin(lo.y, p.y), fmin(lo.z, p.z));
+			hi = vec3(fmax(hi.x, p.x), fmax(hi.y, p.y), fmax(hi.z, p.z));
+		}
+	return fmax(hi.x - lo.x, fmax(hi.y - lo.y, hi.z - lo.z));
+}
