@@ -1,0 +1,264 @@
+/* ray_finish.h - candidates of one leaf finished in double on the true patch. Private; included by
+ * ray_packet.c only. */
+#ifndef BATTEN_RAY_FINISH_H
+#define BATTEN_RAY_FINISH_H
+
+#include "ray_packet.h"
+
+enum { FINISH_STEPS = 14 };
+
+/* Parameters may be out of the patch by this much, so that nothing slips between two patches. */
+#define BORDER 1e-9
+
+/* Hits nearer to each other than this along a ray are one; the leaf of lower number has it. */
+#define SAME 1e-12
+
+/* Bernstein polynomials of degree order - 1 and their derivatives. */
+INLINE void finish_basis(int order, vd t, vd *b, vd *d)
+{
+	vd r = 1 - t;
+
+	if (order == 4) {
+		vd rr = r * r, tt = t * t, rt = r * t;
+
+		b[0] = rr * r;
+		b[1] = 3 * rr * t;
+		b[2] = 3 * tt * r;
+		b[3] = tt * t;
+		d[0] = -3 * rr;
+		d[1] = 3 * (rr - 2 * rt);
+		d[2] = 3 * (2 * rt - tt);
+		d[3] = 3 * tt;
+		return;
+	}
+	b[0] = filld(1);
+	for (int k = 1; k < order; k++) {
+		if (k == order - 1) { /* b holds the degree below: differences are the derivative */
+			d[0] = -k * b[0];
+			for (int i = 1; i < k; i++)
+				d[i] = k * (b[i - 1] - b[i]);
+			d[k] = k * b[k - 1];
+		}
+		vd carry = filld(0);
+		for (int i = 0; i < k; i++) {
+			vd keep = carry + r * b[i];
+
+			carry = t * b[i];
+			b[i] = keep;
+		}
+		b[k] = carry;
+	}
+}
+
+struct finish_point {
+	vd p[3], pa[3], pb[3];
+};
+
+INLINE void finish_evaluate_(const double *points, int m, int n, bool rational, vd a, vd b,
+                             struct finish_point *out)
+{
+	vd ba[ORDER_MAX], da[ORDER_MAX], bb[ORDER_MAX], db[ORDER_MAX];
+	vd h[4], ha[4], hb[4];
+	int components = rational ? 4 : 3;
+
+	finish_basis(m, a, ba, da);
+	finish_basis(n, b, bb, db);
+	for (int e = 0; e < components; e++)
+		h[e] = ha[e] = hb[e] = filld(0);
+	for (int i = 0; i < m; i++)
+		for (int e = 0; e < components; e++) {
+			const double *row = points + 4 * i * n + e;
+			vd q = bb[0] * row[0], qb = db[0] * row[0];
+
+			for (int j = 1; j < n; j++) {
+				q += bb[j] * row[4 * j];
+				qb += db[j] * row[4 * j];
+			}
+			h[e] += ba[i] * q;
+			ha[e] += da[i] * q;
+			hb[e] += ba[i] * qb;
+		}
+	if (!rational) {
+		/* all weights are one number, not always 1 */
+		double w = 1 / points[3];
+
+		for (int e = 0; e < 3; e++) {
+			out->p[e] = h[e] * w;
+			out->pa[e] = ha[e] * w;
+			out->pb[e] = hb[e] * w;
+		}
+		return;
+	}
+	vd w = 1 / h[3];
+	for (int e = 0; e < 3; e++) {
+		out->p[e] = h[e] * w;
+		out->pa[e] = (ha[e] - out->p[e] * ha[3]) * w;
+		out->pb[e] = (hb[e] - out->p[e] * hb[3]) * w;
+	}
+}
+
+static __attribute__((noinline)) void finish_evaluate(const struct ray_patch *p, vd a, vd b,
+                                                      struct finish_point *out)
+{
+	if (p->order[0] == 4 && p->order[1] == 4) {
+		if (p->rational)
+			finish_evaluate_(p->points, 4, 4, true, a, b, out);
+		else
+			finish_evaluate_(p->points, 4, 4, false, a, b, out);
+	} else {
+		finish_evaluate_(p->points, p->order[0], p->order[1], p->rational, a, b, out);
+	}
+}
+
+INLINE vd dotd(const vd *a, const vd *b)
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+INLINE vd sqrt_lanes(vd x)
+{
+	vd r;
+
+	for (int i = 0; i < HALF; i++)
+		r[i] = __builtin_sqrt(x[i]);
+	return r;
+}
+
+/* The part of a half packet's rays that finishing needs, by value. */
+struct finish_rays {
+	vd d[3], n1[3], n2[3], k1, k2, kd;
+};
+
+/*
+ * Newton steps for the lanes `live` from (a, b). Comes back with the lanes that reached the surface
+ * inside the patch; a, b, x are theirs.
+ */
+INLINE vl finish_newton(const struct ray_patch *patch, const struct finish_rays *r, vl live, vd *pa,
+                        vd *pb, struct finish_point *x)
+{
+	vd a = *pa, b = *pb;
+	vl done = live & ~live;
+	struct finish_point now;
+
+	for (int step = 0; step < FINISH_STEPS; step++) {
+		finish_evaluate(patch, a, b, &now);
+
+		vd f1 = dotd(r->n1, now.p) - r->k1, f2 = dotd(r->n2, now.p) - r->k2;
+		vd a1 = dotd(r->n1, now.pa), a2 = dotd(r->n2, now.pa);
+		vd b1 = dotd(r->n1, now.pb), b2 = dotd(r->n2, now.pb);
+		vd det = a1 * b2 - a2 * b1;
+		/* at a pole or a tangent point det vanishes: the step does too, the rest decides */
+		vd small = 1e-13 * (sized(a1) + sized(a2)) * (sized(b1) + sized(b2));
+		vd inverse = det / (det * det + small * small + 1e-200);
+		vd da = (b1 * f2 - b2 * f1) * inverse, db = (a2 * f1 - a1 * f2) * inverse;
+		vd rest = sized(f1) + sized(f2);
+		vl sure = live & (sized(da) + sized(db) < 1e-8) & (rest < 1e-7), ends = sure;
+
+		if (step > 3) /* a double root: the step shrinks by halves only */
+			ends |= live & (rest < 1e-13);
+		if (any_half(ends)) {
+			vd ea = pickd(sure, da, filld(0)), eb = pickd(sure, db, filld(0));
+
+			for (int e = 0; e < 3; e++) {
+				vd p = now.p[e] + now.pa[e] * ea + now.pb[e] * eb;
+
+				x->p[e] = pickd(ends, p, x->p[e]);
+				x->pa[e] = pickd(ends, now.pa[e], x->pa[e]);
+				x->pb[e] = pickd(ends, now.pb[e], x->pb[e]);
+			}
+			*pa = pickd(ends, a + ea, *pa);
+			*pb = pickd(ends, b + eb, *pb);
+			done |= ends;
+			live &= ~ends;
+		}
+		a += da;
+		b += db;
+		live &= (sized(a - 0.5) < 2) & (sized(b - 0.5) < 2);
+		if (!any_half(live))
+			break;
+	}
+	return done & (*pa >= -BORDER) & (*pa <= 1 + BORDER) & (*pb >= -BORDER) &
+	       (*pb <= 1 + BORDER);
+}
+
+/* Keep what lanes `ok` of half h have found. */
+INLINE void finish_keep(struct packet *p, int h, vl ok, vl leaf, vd t, vd a, vd b,
+                        const struct finish_point *x)
+{
+	vd length = sqrt_lanes(dotd(x->pa, x->pa) * dotd(x->pb, x->pb)) + 1e-12;
+
+	p->fard[h] = pickd(ok, t, p->fard[h]);
+	p->leaf[h] = (ok & leaf) | (~ok & p->leaf[h]);
+	p->a[0][h] = pickd(ok, a, p->a[0][h]);
+	p->a[1][h] = pickd(ok, b, p->a[1][h]);
+	for (int e = 0; e < 3; e++) {
+		int f = (e + 1) % 3, g = (e + 2) % 3;
+		vd n = (x->pa[f] * x->pb[g] - x->pa[g] * x->pb[f]) / length;
+
+		p->point[e][h] = pickd(ok, x->p[e], p->point[e][h]);
+		p->normal[e][h] = pickd(ok, n, p->normal[e][h]);
+	}
+}
+
+/*
+ * Candidates (s, t) of a leaf, lanes `found`: those that are true hits between near and far.
+ * The packet keeps them where the nearest is wanted.
+ */
+static __attribute__((noinline)) vi finish(struct packet *p, uint32_t number, vf s, vf t, vi found)
+{
+	const struct ray_leaf *l = &p->scene->cut.leaves[number];
+	const struct ray_patch *patch = &p->scene->cut.patches[l->patch];
+	union {
+		vf v;
+		hf half[2];
+	} us = { s }, ut = { t };
+	union {
+		vi v;
+		hi half[2];
+	} uf = { found }, out = { found };
+	union {
+		vf v;
+		hf half[2];
+	} far = { p->far };
+
+	for (int h = 0; h < 2; h++) {
+		vl live = __builtin_convertvector(uf.half[h], vl);
+		if (!any_half(live))
+			continue;
+
+		struct finish_rays r;
+		for (int e = 0; e < 3; e++) {
+			r.d[e] = p->dd[e][h];
+			r.n1[e] = p->nd1[e][h];
+			r.n2[e] = p->nd2[e][h];
+		}
+		r.k1 = p->kd1[h];
+		r.k2 = p->kd2[h];
+		r.kd = p->kdd[h];
+
+		double middle[2], half[2];
+		for (int d = 0; d < 2; d++) {
+			half[d] = 0.5 * (double)l->step[d];
+			middle[d] = (double)l->from[d] + half[d];
+		}
+		vd a = middle[0] + half[0] * __builtin_convertvector(us.half[h], vd);
+		vd b = middle[1] + half[1] * __builtin_convertvector(ut.half[h], vd);
+		struct finish_point x = { 0 };
+		vl ok = finish_newton(patch, &r, live, &a, &b, &x);
+		vd along = dotd(r.d, x.p) - r.kd;
+		vl leaf = (vl){ 0 } + (int64_t)number;
+
+		ok &= along > p->neard[h];
+		ok &= (along < p->fard[h] - SAME) |
+		      ((along <= p->fard[h] + SAME) & (leaf < p->leaf[h]));
+		out.half[h] = __builtin_convertvector(ok, hi);
+		if (!p->nearest || !any_half(ok))
+			continue;
+		finish_keep(p, h, ok, leaf, along, a, b, &x);
+		far.half[h] = __builtin_convertvector(p->fard[h], hf) + 2 * RAY_NOISE;
+	}
+	p->far = far.v;
+	return out.v;
+}
+
+#endif

@@ -1,0 +1,35 @@
+/* ray_kernel.h - packets of rays against leaves, built once for each vector level. Private. */
+#ifndef BATTEN_RAY_KERNEL_H
+#define BATTEN_RAY_KERNEL_H
+
+#include <embree3/rtcore.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "ray_leaf.h"
+#include "ray_scene.h"
+
+struct ray_scene {
+	struct ray_cut cut;
+	RTCDevice device;                      /* owned */
+	RTCScene tree;                         /* owned */
+	size_t tree_bytes;                     /* as the device tells */
+	const struct surface *const *surfaces; /* owned array; its surfaces borrowed */
+	const struct ray_kernel *kernel;
+};
+
+struct ray_kernel {
+	const char *level; /* as vector_level() names it */
+	int lanes;         /* rays of a packet */
+	RTCIntersectFunctionN intersect;
+	RTCOccludedFunctionN occluded;
+	/* Rays order[0..n) (NULL: 0 .. n - 1) of `rays`; results go where the rays stand. */
+	void (*hits)(const struct ray_scene *s, const struct ray *rays, const uint32_t *order,
+	             size_t n, bool coherent, struct ray_hit *hits);
+	void (*blocked)(const struct ray_scene *s, const struct ray *rays, const uint32_t *order,
+	                size_t n, bool *out);
+};
+
+extern const struct ray_kernel ray_kernel_4, ray_kernel_8, ray_kernel_16;
+
+#endif

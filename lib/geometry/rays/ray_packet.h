@@ -1,0 +1,25 @@
+/* ray_packet.h - a packet of rays on its way through the tree. Private. */
+#ifndef BATTEN_RAY_PACKET_H
+#define BATTEN_RAY_PACKET_H
+
+#include "ray_kernel.h"
+#include "ray_lanes.h"
+
+/*
+ * Everything in scene units. A ray is the line where two planes meet: n1 . x = k1, n2 . x = k2.
+ * Doubles come as two halves. Results are those of the nearest hit so far.
+ */
+struct packet {
+	struct RTCIntersectContext context; /* first: Embree hands it back to the callbacks */
+	const struct ray_scene *scene;
+	bool nearest;                      /* else any hit will do */
+	vf d[3], n1[3], n2[3], k1, k2, kd; /* kd: d . origin */
+	vf near, far;                      /* a little wider than the true ones */
+	vd dd[3][2], nd1[3][2], nd2[3][2], kd1[2], kd2[2], kdd[2];
+	vd neard[2], fard[2];         /* far: comes nearer with each hit */
+	vl leaf[2];                   /* -1: none */
+	vd a[2][2];                   /* parameters in the patch [0, 1]: u, v */
+	vd point[3][2], normal[3][2]; /* normal: length is sin of the angle of Su and Sv */
+};
+
+#endif
