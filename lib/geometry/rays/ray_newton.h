@@ -75,7 +75,7 @@ INLINE vi node_newton(const struct node *n, float error, vf *ps, vf *pt, vi live
 		if (any(ends)) {
 			/* how far the coefficients' error can move the solution */
 			vf grow = error * size(inverse);
-			vf edge = 1 + SLACK / n->half;
+			float edge = 1 + SLACK / n->half;
 
 			found |= ends & (size(s) <= edge + grow * (size(t1) + size(t2))) &
 			         (size(t) <= edge + grow * (size(s1) + size(s2)));
