@@ -10,7 +10,8 @@ struct client; /* opaque */
 
 /*
  * Connect to the project's service; where none runs and `start` is set, start one (`batten serve`
- * beside this program) and wait until it answers.
+ * beside this program, in a session of its own, its log in .batten/logs/service.log) and wait until
+ * it listens: it closes the descriptor that the environment names in BATTEN_READY_FD.
  * Errors: ST_RESOURCE (no service and not started), ST_INPUT (another protocol: run
  * `batten shutdown`; a socket that is not ours).
  */
@@ -21,19 +22,24 @@ void client_close(struct client *c); /* NULL is fine */
 /* A JOB packet's record; s is borrowed for the call. Return false to stop listening. */
 typedef bool client_job(void *data, const struct Stats *s);
 
+/* Send a request (its "id" is set here; body is stolen) and do not wait. Replies come to
+ * client_listen. */
+enum status client_send(struct client *c, enum message_type type, json_t *body,
+                        const struct report *r);
+
 /*
- * Send a request (its "id" is set here) and take the replies until END: each JOB goes to on_job (may
- * be NULL), each TEXT to on_text. An ERROR is reported and ends the request with its class.
- * WATCH and LOG with follow do not end by themselves: see client_wait.
+ * Send a request and take the replies until END: each JOB goes to on_job (may be NULL), each TEXT to
+ * on_text. An ERROR is reported and ends the request with its class.
  */
 enum status client_request(struct client *c, enum message_type type, json_t *body,
                            client_job *on_job, void (*on_text)(void *data, const char *text),
                            void *data, const struct report *r);
 
-/* For WATCH: take what comes for at most timeout_ms (-1: for ever), or until fd (or -1) is readable
- * (keys, a signal's pipe). *ended is set when the service went away. */
+/* After client_send of a WATCH: take what comes for at most timeout_ms (-1: for ever); returns
+ * after each batch, or when fd (or -1) is readable (keys, a signal's descriptor). *ended is set at the
+ * request's END and when the service went away (*gone too). */
 enum status client_listen(struct client *c, int timeout_ms, int fd, client_job *on_job, void *data,
-                          bool *ended, const struct report *r);
+                          bool *ended, bool *gone, const struct report *r);
 int client_descriptor(const struct client *c);
 
 #endif

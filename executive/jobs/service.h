@@ -8,6 +8,7 @@
 /*
  * Serve the project's jobs until SHUTDOWN comes, SIGTERM or SIGINT (the same), or nothing was to do
  * for `idle` seconds. Takes the project's lock, resumes what was running, listens on its socket.
+ * When it listens it closes the descriptor that the environment names in BATTEN_READY_FD.
  * The program must not have started threads; its working folder becomes the project's.
  *
  * Requests, beside those that just name jobs (jobs: ids, or group, or all; each replies with the

@@ -1,0 +1,329 @@
+/* client.c - a connection to the service. */
+#include "client.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "json.h"
+#include "path.h"
+#include "text.h"
+
+extern char **environ;
+
+enum { HELLO_MS = 10000, READY_MS = 10000, READ_BYTES = 1 << 16 };
+
+struct client {
+	int fd;
+	int64_t last_id;
+	struct message_reader reader;
+};
+
+/* ------------------------------------------------------------ connecting */
+
+static enum status open_socket(int *out, const char *path, const struct report *r)
+{
+	struct sockaddr_un address = { .sun_family = AF_UNIX };
+	struct ucred peer;
+	socklen_t size = sizeof peer;
+
+	if (strlen(path) >= sizeof address.sun_path)
+		return report_error(r, ST_RESOURCE, "the socket's path '%s' is too long", path);
+	strcpy(address.sun_path, path);
+	int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+	if (fd < 0)
+		return report_error(r, ST_RESOURCE, "cannot make a socket: %s", strerror(errno));
+	if (connect(fd, (struct sockaddr *)&address, sizeof address)) {
+		close(fd);
+		return ST_CANCELLED; /* nobody there: the caller knows what to do */
+	}
+	if (getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &peer, &size) || peer.uid != getuid()) {
+		close(fd);
+		return report_error(r, ST_INPUT, "the service at '%s' belongs to another user",
+		                    path);
+	}
+	*out = fd;
+	return ST_OK;
+}
+
+/* Wait until all copies of the pipe's other end are closed, or the time is out. */
+static bool wait_closed(int fd)
+{
+	struct pollfd p = { .fd = fd, .events = POLLIN };
+	int n;
+
+	while ((n = poll(&p, 1, READY_MS)) < 0 && errno == EINTR)
+		;
+	return n > 0;
+}
+
+/* The environment with BATTEN_READY_FD. Fresh array; its last string is `ready`. */
+static char **environment_with(char *ready)
+{
+	size_t n = 0, to = 0;
+
+	while (environ[n])
+		n++;
+	char **all = calloc(n + 2, sizeof *all);
+	for (size_t i = 0; all && i < n; i++)
+		if (strncmp(environ[i], "BATTEN_READY_FD=", 16))
+			all[to++] = environ[i];
+	if (all)
+		all[to] = ready;
+	return all;
+}
+
+static enum status start_service(const struct project *p, const struct report *r)
+{
+	char *folder = path_of_program(), *program = folder ? path_join(folder, "batten") : NULL;
+	char *log = path_join(p->hidden, "logs/service.log"), ready[] = "BATTEN_READY_FD=3";
+	char *argv[] = { "batten", "serve", NULL }, **environment = environment_with(ready);
+	posix_spawn_file_actions_t actions;
+	posix_spawnattr_t attributes;
+	int fds[2] = { -1, -1 }, error = ENOMEM;
+	pid_t pid;
+
+	posix_spawn_file_actions_init(&actions);
+	posix_spawnattr_init(&attributes);
+	posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
+	sigset_t none;
+	sigemptyset(&none);
+	posix_spawnattr_setsigmask(&attributes, &none);
+	if (program && log && environment && pipe2(fds, O_CLOEXEC) == 0) {
+		posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+		posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+		posix_spawn_file_actions_addopen(&actions, 2, log, O_WRONLY | O_CREAT | O_APPEND,
+		                                 0600);
+		posix_spawn_file_actions_adddup2(&actions, fds[1], 3);
+		posix_spawn_file_actions_addchdir_np(&actions, p->folder);
+		error = posix_spawn(&pid, program, &actions, &attributes, argv, environment);
+	}
+	if (fds[1] >= 0)
+		close(fds[1]);
+	bool answered = !error && wait_closed(fds[0]);
+	if (fds[0] >= 0)
+		close(fds[0]);
+	posix_spawn_file_actions_destroy(&actions);
+	posix_spawnattr_destroy(&attributes);
+	free(environment);
+	enum status st = ST_OK;
+	if (error)
+		st = report_error(r, ST_RESOURCE, "cannot start the service '%s': %s",
+		                  program ? program : "batten", strerror(error));
+	else if (!answered)
+		st = report_error(r, ST_RESOURCE, "the service did not start within %d s; see '%s'",
+		                  READY_MS / 1000, log);
+	free(log);
+	free(program);
+	free(folder);
+	return st;
+}
+
+/* ------------------------------------------------------------ packets */
+
+/* Take in what has come, waiting at most ms for it. 1 something came, 0 the time is out or fd is
+ * readable, -1 the service is gone. */
+static int take_in(struct client *c, int ms, int fd)
+{
+	struct pollfd p[2] = { { .fd = c->fd, .events = POLLIN }, { .fd = fd, .events = POLLIN } };
+	int n = poll(p, fd >= 0 ? 2 : 1, ms);
+	size_t room;
+
+	if (n <= 0 || !p[0].revents)
+		return 0;
+	char *to = message_reader_room(&c->reader, READ_BYTES, &room);
+	if (!to)
+		return -1;
+	ssize_t got = read(c->fd, to, room);
+	if (got < 0 && errno == EINTR)
+		return 0;
+	if (got <= 0)
+		return -1;
+	message_reader_filled(&c->reader, (size_t)got);
+	return 1;
+}
+
+/* The next packet, waiting for it. */
+static enum status next_packet(struct client *c, struct message *m, int ms, const struct report *r)
+{
+	for (;;) {
+		int got = message_reader_next(&c->reader, m);
+		if (got > 0)
+			return ST_OK;
+		if (got < 0)
+			return report_error(r, ST_INTERNAL, "the service sent no packet: %s",
+			                    c->reader.reason);
+		int came = take_in(c, ms, -1);
+		if (came < 0)
+			return report_error(
+			        r, ST_RESOURCE,
+			        "the service went away; the next job verb starts it again");
+		if (!came && ms >= 0)
+			return report_error(
+			        r, ST_RESOURCE,
+			        "the service does not answer; see .batten/logs/service.log");
+	}
+}
+
+static enum status say_hello(struct client *c, const struct report *r)
+{
+	struct message m;
+	json_t *body = json_pack("{s:i, s:s, s:s, s:i}", "protocol", MESSAGE_PROTOCOL, "program",
+	                         "batten", "version", BATTEN_VERSION, "pid", (int)getpid());
+	enum status st = message_send(c->fd, MESSAGE_HELLO, body);
+
+	json_decref(body);
+	if (st != ST_OK)
+		return report_error(r, ST_RESOURCE, "the service went away; try again");
+	st = next_packet(c, &m, HELLO_MS, r);
+	if (st != ST_OK)
+		return st;
+	if (m.type != MESSAGE_HELLO ||
+	    json_int(m.body, "protocol", MESSAGE_PROTOCOL) != MESSAGE_PROTOCOL)
+		st = report_error(r, ST_INPUT,
+		                  "the service that runs here is of another version (%s); run "
+		                  "`batten shutdown`",
+		                  json_text(m.body, "version", "unknown"));
+	message_finish(&m);
+	return st;
+}
+
+enum status client_connect(struct client **out, const struct project *p, bool start,
+                           const struct report *r)
+{
+	int fd = -1;
+	enum status st = open_socket(&fd, p->socket, r);
+
+	if (st == ST_CANCELLED && start) {
+		st = start_service(p, r);
+		if (st == ST_OK)
+			st = open_socket(&fd, p->socket, r);
+		if (st == ST_CANCELLED)
+			return report_error(r, ST_RESOURCE,
+			                    "the service ended at once; see '%s/logs/service.log'",
+			                    p->hidden);
+	} else if (st == ST_CANCELLED)
+		return report_error(r, ST_RESOURCE, "no service runs in '%s'", p->folder);
+	if (st != ST_OK)
+		return st;
+	struct client *c = calloc(1, sizeof *c);
+	if (!c) {
+		close(fd);
+		return report_error(r, ST_RESOURCE, "memory ran out");
+	}
+	c->fd = fd;
+	message_reader_init(&c->reader, FROM_SERVICE);
+	st = say_hello(c, r);
+	if (st != ST_OK) {
+		client_close(c);
+		return st;
+	}
+	*out = c;
+	return ST_OK;
+}
+
+void client_close(struct client *c)
+{
+	if (!c)
+		return;
+	close(c->fd);
+	message_reader_finish(&c->reader);
+	free(c);
+}
+
+int client_descriptor(const struct client *c)
+{
+	return c->fd;
+}
+
+/* ------------------------------------------------------------ requests */
+
+enum status client_send(struct client *c, enum message_type type, json_t *body,
+                        const struct report *r)
+{
+	json_set_int(body, "id", ++c->last_id);
+	enum status st = message_send(c->fd, type, body);
+
+	json_decref(body);
+	if (st == ST_INTERNAL)
+		return report_error(r, ST_PARAMETER, "the request is too long; name fewer jobs");
+	return st == ST_OK ? ST_OK : report_error(r, st, "the service went away; try again");
+}
+
+/* Hand one packet on. *end: the request is over. Packets of other requests are passed over. */
+static enum status deliver(struct client *c, const struct message *m, client_job *on_job,
+                           void (*on_text)(void *data, const char *text), void *data, bool *end,
+                           const struct report *r)
+{
+	struct Stats s;
+
+	if (json_int(m->body, "id", c->last_id) != c->last_id)
+		return ST_OK;
+	switch (m->type) {
+	case MESSAGE_END:
+		*end = true;
+		return ST_OK;
+	case MESSAGE_ERROR:
+		*end = true;
+		return report_error(r, status_from_class(json_text(m->body, "class", "")), "%s",
+		                    json_text(m->body, "text", "no reason was given"));
+	case MESSAGE_TEXT:
+		if (on_text)
+			on_text(data, json_text(m->body, "text", ""));
+		return ST_OK;
+	case MESSAGE_JOB:
+		if (!on_job)
+			return ST_OK;
+		if (stats_from_json(&s, json_object_get(m->body, "job")) != ST_OK)
+			return report_error(r, ST_INTERNAL, "the service sent a job that is none");
+		*end = !on_job(data, &s);
+		stats_finish(&s);
+		return ST_OK;
+	default:
+		return ST_OK;
+	}
+}
+
+enum status client_request(struct client *c, enum message_type type, json_t *body,
+                           client_job *on_job, void (*on_text)(void *data, const char *text),
+                           void *data, const struct report *r)
+{
+	enum status st = client_send(c, type, body, r);
+	bool end = false;
+
+	while (st == ST_OK && !end) {
+		struct message m;
+		st = next_packet(c, &m, -1, r);
+		if (st != ST_OK)
+			break;
+		st = deliver(c, &m, on_job, on_text, data, &end, r);
+		message_finish(&m);
+	}
+	return st;
+}
+
+enum status client_listen(struct client *c, int timeout_ms, int fd, client_job *on_job, void *data,
+                          bool *ended, bool *gone, const struct report *r)
+{
+	enum status st = ST_OK;
+	struct message m;
+	int got;
+
+	if (take_in(c, timeout_ms, fd) < 0)
+		*ended = *gone = true;
+	while (st == ST_OK && (got = message_reader_next(&c->reader, &m)) != 0) {
+		if (got < 0)
+			return report_error(r, ST_INTERNAL, "the service sent no packet: %s",
+			                    c->reader.reason);
+		st = deliver(c, &m, on_job, NULL, data, ended, r);
+		message_finish(&m);
+	}
+	return st;
+}
