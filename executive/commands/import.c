@@ -1,0 +1,148 @@
+/* import.c - every entity of a geometry file as .base. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base.h"
+#include "file.h"
+#include "hash.h"
+#include "json.h"
+#include "path.h"
+#include "reading.h"
+#include "text.h"
+#include "verbs.h"
+
+static const struct option_row import_options[] = {
+	{ "--into", NULL, "DIR", "folder to write into (default: the current one)" },
+	{ "--inputs", NULL, NULL, "write the surfaces under their hash, as jobs read them" },
+	{ 0 },
+};
+
+/* How one import goes. */
+struct import {
+	const struct invocation *i;
+	const struct model *m;
+	const char *folder, *basic;
+	bool inputs;
+	int n_chosen;
+	json_t *entities;
+};
+
+/* Where an entity goes: DIR/NAME.base, DIR/NAME-3.base, or DIR/inputs/HASH.base. Fresh. */
+static char *place(const struct import *x, const struct entity *e, const struct text *t)
+{
+	char hash[HASH_SIZE];
+	char *name, *path;
+
+	if (x->inputs) {
+		hash_bytes(t->s, t->n, hash);
+		name = text_print("inputs/%s.base", hash);
+	} else if (x->n_chosen == 1)
+		name = text_print("%s.base", x->basic);
+	else if (e->number)
+		name = text_print("%s-%d.base", x->basic, e->number);
+	else
+		name = text_print("%s-D%d.base", x->basic, e->de);
+	path = name ? path_join(x->folder, name) : NULL;
+	free(name);
+	return path;
+}
+
+static enum status write_entity(struct import *x, const struct entity *e)
+{
+	const struct report *r = &x->i->report;
+	struct text t = { 0 };
+	enum status st = ST_RESOURCE;
+
+	base_format_entity(x->m, e, &t);
+	char *path = t.failed ? NULL : place(x, e, &t);
+	if (!path)
+		report_error(r, st, "memory ran out");
+	else if (x->inputs && path_exists(path))
+		st = ST_OK; /* the same bytes */
+	else
+		st = file_write(path, t.s, t.n, r);
+	if (st == ST_OK)
+		json_array_append_new(x->entities,
+		                      json_pack("{s:i, s:s, s:s?, s:o, s:s}", "number", e->number,
+		                                "kind", entity_kind_name(e->kind), "name", e->name,
+		                                "de", e->de ? json_integer(e->de) : json_null(),
+		                                "path", path));
+	if (st == ST_OK && !x->i->json)
+		puts(path);
+	free(path);
+	text_finish(&t);
+	return st;
+}
+
+static bool is_meant(const struct import *x, const struct entity *chosen, const struct entity *e)
+{
+	if (chosen)
+		return e == chosen;
+	return e->number > 0 && (!x->inputs || e->kind == ENTITY_SURFACE);
+}
+
+static enum status import_all(struct import *x, const struct entity *chosen)
+{
+	const struct report *r = &x->i->report;
+	enum status st = ST_OK;
+
+	for (int k = 0; k < x->m->n; k++)
+		x->n_chosen += is_meant(x, chosen, &x->m->entities[k]);
+	if (!x->n_chosen)
+		return report_error(r, ST_INPUT, "'%s' has no %s", x->m->file,
+		                    x->inputs ? "surface; jobs work on surfaces" : "entity");
+	if (x->inputs && chosen && chosen->kind != ENTITY_SURFACE)
+		return report_error(r, ST_INPUT, "entity %d of '%s' is a %s; jobs work on surfaces",
+		                    chosen->number, x->m->file, entity_kind_name(chosen->kind));
+	for (int k = 0; k < x->m->n && st == ST_OK; k++)
+		if (is_meant(x, chosen, &x->m->entities[k]))
+			st = write_entity(x, &x->m->entities[k]);
+	return st;
+}
+
+static int import_run(const struct invocation *i)
+{
+	struct model m;
+	struct entity *chosen;
+	const char *into = invocation_value(i, "--into");
+
+	if (i->n_words != 1)
+		return status_exit(report_error(&i->report, ST_PARAMETER, "name one file"));
+	enum status st = reading_open(&m, i->words[0], &chosen, &i->report);
+	if (st != ST_OK)
+		return status_exit(st);
+	char *basic = m.file ? path_basic_name(m.file) : NULL;
+	struct import x = { .i = i,
+		            .m = &m,
+		            .folder = into ? into : ".",
+		            .basic = basic,
+		            .inputs = invocation_flag(i, "--inputs"),
+		            .entities = json_array() };
+	if (into)
+		st = folder_make(into, 0777, &i->report);
+	if (st == ST_OK)
+		st = import_all(&x, chosen);
+	for (int k = 0; k < m.n_warnings; k++)
+		report_warning(&i->report, "%s", m.warnings[k]);
+	for (int k = 0; k < m.n_skipped && !x.inputs; k++)
+		report_warning(&i->report, "skipped %d of type %d from D%d: %s", m.skipped[k].count,
+		               m.skipped[k].type, m.skipped[k].first_de, m.skipped[k].reason);
+	int rc = status_exit(st);
+	if (st == ST_OK && i->json)
+		rc = print_json(json_pack("{s:s, s:O}", "file", m.file, "entities", x.entities));
+	json_decref(x.entities);
+	free(basic);
+	model_finish(&m);
+	return rc;
+}
+
+const struct command command_import = {
+	.name = "import",
+	.usage = "FILE[#ENTITY] [--into DIR]",
+	.text = "write every entity of a geometry file as .base",
+	.help = "NAME.base where there is one entity, else NAME-3.base with its number. Units, names, colors\n"
+	        "and Directory Entry numbers are kept; what could not be read is said.",
+	.options = import_options,
+	.first_word = WORD_FILE,
+	.run = import_run,
+};

@@ -1,0 +1,202 @@
+/* info.c - what a geometry file holds. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "json.h"
+#include "path.h"
+#include "reading.h"
+#include "verbs.h"
+
+static const double closed_within = 1e-9; /* of the size */
+
+static json_t *vector(struct vec3 p)
+{
+	return json_pack("[o,o,o]", json_real_or_null(p.x), json_real_or_null(p.y),
+	                 json_real_or_null(p.z));
+}
+
+static json_t *interval(const double d[2])
+{
+	return json_pack("[o,o]", json_real_or_null(d[0]), json_real_or_null(d[1]));
+}
+
+static void describe_curve(json_t *o, const struct curve *c, double size)
+{
+	json_object_set_new(o, "order", json_pack("[i]", c->order));
+	json_object_set_new(o, "points", json_pack("[i]", c->n));
+	json_object_set_new(o, "rational", json_boolean(c->rational));
+	json_object_set_new(o, "domain", json_pack("[o]", interval(c->domain)));
+	json_object_set_new(o, "periodic", json_pack("[b]", (int)c->periodic));
+	json_object_set_new(o, "closed",
+	                    json_pack("[b]", (int)curve_closed(c, closed_within * size)));
+}
+
+static void describe_surface(json_t *o, const struct surface *s)
+{
+	double near = closed_within * surface_size(s);
+
+	json_object_set_new(o, "order", json_pack("[i,i]", s->order[0], s->order[1]));
+	json_object_set_new(o, "points", json_pack("[i,i]", s->n[0], s->n[1]));
+	json_object_set_new(o, "rational", json_boolean(s->rational));
+	json_object_set_new(o, "domain",
+	                    json_pack("[o,o]", interval(s->domain[0]), interval(s->domain[1])));
+	json_object_set_new(o, "periodic",
+	                    json_pack("[b,b]", (int)s->periodic[0], (int)s->periodic[1]));
+	json_object_set_new(o, "closed",
+	                    json_pack("[b,b]", (int)surface_closed(s, 0, near),
+	                              (int)surface_closed(s, 1, near)));
+}
+
+static void describe_points(json_t *o, const struct point_list *p)
+{
+	json_object_set_new(o, "order", json_array());
+	json_object_set_new(o, "points", json_pack("[i]", p->n));
+	json_object_set_new(o, "rational", json_false());
+	json_object_set_new(o, "domain", json_array());
+	json_object_set_new(o, "periodic", json_array());
+	json_object_set_new(o, "closed", json_array());
+}
+
+static json_t *entity_json(const struct entity *e)
+{
+	json_t *o = json_object();
+	struct box box;
+
+	json_set_int(o, "number", e->number);
+	json_set_text(o, "name", e->name);
+	json_set_text(o, "kind", entity_kind_name(e->kind));
+	json_object_set_new(o, "de", e->de ? json_integer(e->de) : json_null());
+	bool boxed = entity_box(e, &box) == ST_OK && !box_is_empty(&box);
+	if (e->kind == ENTITY_SURFACE)
+		describe_surface(o, &e->geometry);
+	else if (e->kind == ENTITY_POINTS)
+		describe_points(o, &e->points);
+	else
+		describe_curve(o, &e->curve, boxed ? box_diagonal(&box) : 0);
+	json_object_set_new(
+	        o, "box", boxed ? json_pack("[o,o]", vector(box.lo), vector(box.hi)) : json_null());
+	json_set_int(o, "trims", e->trims);
+	return o;
+}
+
+static json_t *info_json(const struct model *m, const struct entity *chosen, const char *file)
+{
+	json_t *skipped = json_array(), *entities = json_array(), *warnings = json_array();
+	int read = 0;
+
+	for (int k = 0; k < m->n_skipped; k++)
+		json_array_append_new(skipped,
+		                      json_pack("{s:i, s:i, s:s, s:i}", "type", m->skipped[k].type,
+		                                "count", m->skipped[k].count, "reason",
+		                                m->skipped[k].reason, "first_de",
+		                                m->skipped[k].first_de));
+	for (int k = 0; k < m->n; k++) {
+		const struct entity *e = &m->entities[k];
+		read++;
+		if (chosen ? e == chosen : e->number > 0)
+			json_array_append_new(entities, entity_json(e));
+	}
+	for (int k = 0; k < m->n_warnings; k++)
+		json_array_append_new(warnings, json_string(m->warnings[k]));
+	json_t *o = json_object();
+	json_set_text(o, "file", file);
+	json_set_text(o, "unit", m->unit);
+	json_set_number(o, "unit_in_mm", m->unit_in_mm > 0 ? m->unit_in_mm : NAN);
+	json_set_number(o, "scale", m->scale);
+	json_set_int(o, "read", read);
+	json_object_set_new(o, "skipped", skipped);
+	json_object_set_new(o, "entities", entities);
+	json_object_set_new(o, "warnings", warnings);
+	return o;
+}
+
+static void print_entity(const json_t *e)
+{
+	char points[32] = "", orders[16] = "";
+	const json_t *p = json_object_get(e, "points"), *o = json_object_get(e, "order");
+	const json_t *closed = json_object_get(e, "closed");
+	long long de = json_int(e, "de", 0);
+
+	if (json_array_size(p) == 2) {
+		snprintf(points, sizeof points, "%lldx%lld",
+		         json_integer_value(json_array_get(p, 0)),
+		         json_integer_value(json_array_get(p, 1)));
+		snprintf(orders, sizeof orders, "%lldx%lld",
+		         json_integer_value(json_array_get(o, 0)),
+		         json_integer_value(json_array_get(o, 1)));
+	} else {
+		snprintf(points, sizeof points, "%lld", json_integer_value(json_array_get(p, 0)));
+		if (json_array_size(o))
+			snprintf(orders, sizeof orders, "%lld",
+			         json_integer_value(json_array_get(o, 0)));
+	}
+	printf("%5lld  %-16s %-14.14s", json_int(e, "number", 0) + 0LL, json_text(e, "kind", ""),
+	       json_text(e, "name", ""));
+	if (de)
+		printf(" D%-5lld", de);
+	else
+		printf(" %-6s", "");
+	printf(" %-6s %-9s %s", orders, points, json_flag(e, "rational", false) ? "rational " : "");
+	if (json_is_true(json_array_get(closed, 0)))
+		fputs(json_array_size(closed) == 2 ? "closed in u " : "closed ", stdout);
+	if (json_is_true(json_array_get(closed, 1)))
+		fputs("closed in v ", stdout);
+	if (json_int(e, "trims", 0))
+		printf("%lld trims", (long long)json_int(e, "trims", 0));
+	putchar('\n');
+}
+
+static void print_info(const json_t *o)
+{
+	size_t k;
+	json_t *row;
+	double mm = json_number(o, "unit_in_mm", 0), scale = json_number(o, "scale", 1);
+
+	printf("%s: unit %s", json_text(o, "file", ""), json_text(o, "unit", "not named"));
+	if (mm > 0)
+		printf(" (%g mm)", mm);
+	if (scale != 1)
+		printf(", model space scale %g (coordinates are as in the file)", scale);
+	printf(", %lld entities read\n\n", (long long)json_int(o, "read", 0));
+	printf("%5s  %-16s %-14s %-7s%-6s  %s\n", "", "kind", "name", "DE", "order", "points");
+	json_array_foreach(json_object_get(o, "entities"), k, row) print_entity(row);
+	json_array_foreach(json_object_get(o, "skipped"), k, row)
+	        printf("%sskipped: %lld of type %lld from D%lld: %s\n", k ? "" : "\n",
+	               (long long)json_int(row, "count", 0), (long long)json_int(row, "type", 0),
+	               (long long)json_int(row, "first_de", 0), json_text(row, "reason", ""));
+}
+
+static int info_run(const struct invocation *i)
+{
+	struct model m;
+	struct entity *chosen;
+
+	if (i->n_words != 1)
+		return status_exit(report_error(&i->report, ST_PARAMETER, "name one file"));
+	enum status st = reading_open(&m, i->words[0], &chosen, &i->report);
+	if (st != ST_OK)
+		return status_exit(st);
+	json_t *o = info_json(&m, chosen, m.file ? m.file : i->words[0]);
+	int rc = 0;
+	if (i->json)
+		rc = print_json(json_incref(o));
+	else {
+		print_info(o);
+		for (int k = 0; k < m.n_warnings; k++)
+			report_warning(&i->report, "%s", m.warnings[k]);
+	}
+	json_decref(o);
+	model_finish(&m);
+	return rc;
+}
+
+const struct command command_info = {
+	.name = "info",
+	.usage = "FILE[#ENTITY]",
+	.text = "show what a geometry file holds",
+	.help = "Entities read with order, points and where they are closed; entities skipped and why;\n"
+	        "unit and scale. --json gives domains and boxes too.",
+	.first_word = WORD_FILE,
+	.run = info_run,
+};

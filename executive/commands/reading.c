@@ -1,0 +1,73 @@
+/* reading.c - reading a geometry file in a verb. */
+#include "reading.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "path.h"
+
+static atomic_bool interrupted;
+
+static void on_interrupt(int number)
+{
+	(void)number;
+	atomic_store(&interrupted, true);
+}
+
+struct meter {
+	double began, drawn;
+	const char *name;
+	bool shown;
+};
+
+static double now(void)
+{
+	struct timespec t;
+
+	clock_gettime(CLOCK_MONOTONIC, &t);
+	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void draw(void *data, double fraction)
+{
+	struct meter *m = data;
+	double t = now();
+
+	if (t - m->began < 0.5 || t - m->drawn < 0.1)
+		return;
+	fprintf(stderr, "\rreading %s %3.0f %%\033[K", m->name, 100 * fraction);
+	m->drawn = t;
+	m->shown = true;
+}
+
+enum status reading_open(struct model *m, const char *argument, struct entity **chosen,
+                         const struct report *r)
+{
+	char *path = NULL, *selector = NULL;
+	enum status st = model_split_name(argument, &path, &selector);
+
+	*chosen = NULL;
+	if (st != ST_OK)
+		return report_error(r, st, "memory ran out");
+	struct meter meter = { .began = now(), .name = path_file_name(path) };
+	struct progress p = { .step = isatty(STDERR_FILENO) ? draw : NULL,
+		              .data = &meter,
+		              .stop = &interrupted };
+	struct sigaction mine = { .sa_handler = on_interrupt }, before;
+	sigaction(SIGINT, &mine, &before);
+	st = model_read(m, path, &p, r);
+	sigaction(SIGINT, &before, NULL);
+	if (meter.shown)
+		fputs("\r\033[K", stderr);
+	if (st == ST_OK && selector) {
+		st = model_find(m, selector, chosen, r);
+		if (st != ST_OK)
+			model_finish(m);
+	}
+	free(path);
+	free(selector);
+	return st;
+}

@@ -1,0 +1,15 @@
+/* reading.h - reading a geometry file in a verb: progress in the terminal, Ctrl-C, warnings. */
+#ifndef BATTEN_READING_H
+#define BATTEN_READING_H
+
+#include "command.h"
+#include "model.h"
+
+/*
+ * Read "FILE" or "FILE#ENTITY" into *m (caller finishes); *chosen is the entity, NULL where none is
+ * named. Progress is drawn on standard error when it is a terminal and takes over half a second.
+ */
+enum status reading_open(struct model *m, const char *argument, struct entity **chosen,
+                         const struct report *r);
+
+#endif

@@ -1,0 +1,19 @@
+/* release.c - let held jobs start. */
+#include "each.h"
+#include "verbs.h"
+
+static int release_run(const struct invocation *i)
+{
+	return each_job(i, MESSAGE_RELEASE, NULL);
+}
+
+const struct command command_release = {
+	.name = "release",
+	.usage = "ID...|--all|--group G",
+	.text = "let held jobs start",
+	.help = "",
+	.options = each_options,
+	.first_word = WORD_JOB,
+	.words = WORD_JOB,
+	.run = release_run,
+};
