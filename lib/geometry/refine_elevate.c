@@ -91,8 +91,11 @@ static enum status elevate_once(struct strip *out, const struct strip *s)
 			memcpy(rest, y, (size_t)j * sizeof *rest);
 			memcpy(rest + j, y + j + 1, (size_t)(p - j) * sizeof *rest);
 			bool right = raised.knots[i] == rest[0];
-			st = add_blossom(s, rest, right, (double)run / (p + 1), sum);
+			st = add_blossom(s, rest, right, run, sum);
 		}
+		/* divided last, so that weights of 1 stay 1 */
+		for (size_t k = 0; k < s->dim; k++)
+			sum[k] /= p + 1;
 	}
 	if (st != ST_OK) {
 		strip_finish(&raised);
