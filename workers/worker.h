@@ -8,6 +8,7 @@
 #define BATTEN_WORKER_H
 
 #include <jansson.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -95,20 +96,57 @@ struct vec3 work_vector(const struct work *w, const char *name);
 /* Has it a value (given, or a default)? */
 bool work_has(const struct work *w, const char *name);
 
+/*
+ * Parameters that several workers have, under one name each; rows for `params`:
+ *	PARAM_ROW_GRID("512x512"), PARAM_ROWS_LIGHT("0", "30"), PARAM_ROW_PNG, { .name = NULL }
+ */
+/* clang-format off */
+#define PARAM_ROW_SIZE(value)                                                                      \
+	{ .name = "size", .type = PARAM_SIZE, .def = value, .min = 1, .max = 65536, .unit = "px",  \
+	  .help = "width and height of the image" }
+#define PARAM_ROW_GRID(value)                                                                      \
+	{ .name = "grid", .type = PARAM_SIZE, .def = value, .min = 1, .max = 65536,                \
+	  .help = "samples in u by samples in v" }
+#define PARAM_ROW_VIEW(value)                                                                      \
+	{ .name = "view", .type = PARAM_VIEW, .def = value,                                        \
+	  .help = "from where it is seen: three-quarter, front, back, left, right, top, bottom or " \
+		  "AZIMUTH,ELEVATION in degrees; then :perspective or :orthographic, and @ANGLE" }
+#define PARAM_ROW_TOLERANCE(value)                                                                 \
+	{ .name = "tolerance", .type = PARAM_REAL, .def = value, .min = 0, .max = INFINITY,        \
+	  .unit = "file", .help = "largest distance from the exact result" }
+#define PARAM_ROWS_LIGHT(azimuth_value, incidence_value)                                           \
+	{ .name = "light", .type = PARAM_VECTOR,                                                   \
+	  .help = "from the surface towards a parallel light, any length; instead of the angles" }, \
+	{ .name = "azimuth", .type = PARAM_REAL, .def = azimuth_value, .min = -360, .max = 360,    \
+	  .unit = "deg", .help = "where the light stands, from +x towards +y" },                   \
+	{ .name = "incidence", .type = PARAM_REAL, .def = incidence_value, .min = 0, .max = 180,   \
+	  .unit = "deg", .help = "angle of the light from +z" }
+#define PARAM_ROW_PNG                                                                              \
+	{ .name = "png", .type = PARAM_FLAG, .def = "no",                                          \
+	  .help = "make the picture, too, with its color key where it has one" }
+#define PARAM_ROW_SVG                                                                              \
+	{ .name = "svg", .type = PARAM_FLAG, .def = "no", .help = "make the drawing, too" }
+/* clang-format on */
+
+/* Unit vector towards the light, of a worker with PARAM_ROWS_LIGHT.
+ * Errors: ST_PARAMETER (no direction; both the vector and an angle given). */
+enum status work_light(const struct work *w, struct vec3 *out);
+
 /* Hand over a unit's finished bytes (any thread). */
 enum status work_put(struct work *w, size_t unit, const void *bytes, size_t n);
 
-/* In finish: a unit's bytes, valid until the end. */
+/* In finish: a unit's bytes, valid until the end. Thread: any. */
 enum status work_get(struct work *w, size_t unit, const char **bytes, size_t *n);
 
-/* Progress inside begin or finish, where those take longer than half a second. */
+/* Progress inside begin or finish, where those take longer than half a second. Thread: any. */
 void work_phase(struct work *w, const char *phase, size_t done, size_t total);
 
 /* True when it is time to stop: long loops ask now and then and return ST_CANCELLED. */
 bool work_cancelled(const struct work *w);
 
-/* Name and value pairs to write into an output: program and worker version, input hash, every
- * parameter, unit, vector level. Borrowed. */
+/* Name and value pairs to write into an output, all of them: program, worker, worker_version,
+ * input_hash, unit, vector_level, param.NAME for every parameter that has a value, and, once they
+ * are stated, figures. Borrowed; good until work_figures. */
 struct work_attribute {
 	const char *name, *value;
 };
@@ -118,14 +156,15 @@ const struct work_attribute *work_attributes(const struct work *w, int *n);
 typedef enum status work_writer(void *data, const char *path, const struct report *r);
 
 /*
- * In finish: make the output with that extension (one of the worker's outputs) by `write`, then
- * sync, rename and tell of it. figures (a new reference, stolen; may be NULL) go with it; the
- * figures of the first output are kept in its attributes as "figures" by the writer: take them from
- * work_attributes after work_figures.
+ * In finish: make the output with that extension (one of the worker's outputs) by `write`, and sync
+ * it. When finish has succeeded all outputs are renamed, the worker's own (the first) last, and
+ * told of with the figures; when it fails they are taken away. Every output that the parameters ask
+ * for must be made.
  */
 enum status work_output(struct work *w, const char *extension, work_writer *write, void *data);
 
-/* State the figures before the first work_output; they become an attribute and go into RESULT. */
+/* State the figures (a new reference, stolen) before the first work_output: they become the
+ * attribute "figures" and go into RESULT. Errors: ST_RESOURCE. */
 enum status work_figures(struct work *w, json_t *figures);
 
 #endif
