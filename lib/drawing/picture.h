@@ -1,4 +1,10 @@
-/* picture.h - pictures with Cairo and Pango: PNG of images and maps with their key, SVG of curves. */
+/* picture.h - pictures with Cairo and Pango: PNG of images and maps with their key, SVG of curves.
+ *
+ * Same input, same bytes. Files are written under the path given, whatever its ending: give a
+ * temporary name. On failure nothing is left there.
+ * Errors of all: ST_INPUT (folder missing, not writable), ST_RESOURCE (full disk, no memory, larger
+ * than a picture can be).
+ */
 #ifndef BATTEN_PICTURE_H
 #define BATTEN_PICTURE_H
 
@@ -9,41 +15,53 @@
 #include "curve.h"
 #include "report.h"
 #include "surface.h"
+#include "theme.h"
 
-/* Tokens of the two themes are in picture.c; both are chosen for contrast, see docs/formats.md. */
-enum theme { THEME_LIGHT, THEME_DARK };
-
-/* Linear R G B A planes (premultiplied or not as in EXR: premultiplied), width x height. */
+/* Linear R G B A planes, premultiplied as in EXR, width x height: over the theme's ground, as
+ * sRGB; brighter than white is white. */
 enum status picture_image(const char *path, int width, int height, const float *const rgba[4],
                           enum theme theme, const struct report *r);
 
 /*
- * A map: values (NaN: nothing there) colored, with a key: title, unit, ticks at round numbers,
- * range and scale in words. aspect: height over width of the map area (0: as the grid is).
- * `u0 u1 v0 v1` label the axes; NULL axes: a view, no axes. shade (may be NULL): darkening
- * 0 .. 1 multiplied in, for form.
+ * A map: values colored, with a key: symbol, unit, ticks at round numbers, range and scale in words.
+ * Values smaller than half a thousand pixels across are drawn as rectangles of pixels.
  */
 struct picture_map {
-	int width, height; /* of the values */
-	const float *values;
-	const float *shade;
-	const char *title, *unit; /* "Gaussian curvature", "1/m²" */
-	const double *axes;       /* u0 u1 v0 v1 or NULL */
+	int width, height;    /* of the values */
+	const float *values;  /* rows from the top; NaN: no value there, hatched */
+	const float *shade;   /* color is multiplied by it, for form; NaN: nothing there, ground.
+	                             NULL: no form */
+	const float *weights; /* areas, for the shares beyond the range; NULL: all the same */
+	const char *title, *note; /* "Gaussian curvature", "hull, 512 x 512"; note may be NULL */
+	const char *symbol;       /* of the key: "K" */
+	const char *unit;         /* "1/m²" or NULL */
+	const double *axes; /* u0 u1 v0 v1: parameters of the outermost values, v upward; NULL:
+	                             a view, no axes */
 	struct colormap map;
 };
 enum status picture_map(const char *path, const struct picture_map *m, enum theme theme,
                         const struct report *r);
 
-/* Lines in an SVG or PNG (by the path's extension), seen from a camera. */
+/* A curve in space, drawn to 0.1 px or better; a cubic seen without perspective exactly. */
 struct picture_curve {
-	const struct curve *curve; /* borrowed, in space */
+	const struct curve *curve; /* borrowed */
 	struct rgb color;
 	double width;      /* px */
-	const char *label; /* or NULL */
+	const char *label; /* or NULL; written on the curve where there is room */
 };
-enum status picture_lines(const char *path, const struct camera *camera,
-                          const struct surface *const *surfaces, int n_surfaces,
-                          const struct picture_curve *curves, size_t n_curves, const char *title,
-                          enum theme theme, const struct report *r);
+
+struct picture_lines {
+	const struct camera *camera;
+	const struct surface *const *surfaces; /* isoparametric lines, light; borders stronger */
+	int n_surfaces;
+	const struct picture_curve *curves;
+	size_t n_curves;
+	const char *title, *note; /* may be NULL */
+};
+
+enum picture_format { PICTURE_PNG, PICTURE_SVG };
+enum status picture_lines(const char *path, enum picture_format format,
+                          const struct picture_lines *lines, enum theme theme,
+                          const struct report *r);
 
 #endif
