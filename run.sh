@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# run.sh [FILE...] - from a bare Debian machine to four finished jobs on a hull (or on FILE...).
+set -u
+case ${1-} in
+-h | --help)
+	cat <<'EOT'
+usage: ./run.sh [FILE...]
+
+Installs what is missing, builds, and runs the main job on the example hull, or on FILE...: shading,
+curvature map, isophotes and ray trace, four worker processes at once on a live board. The results are
+left in first-run/.
+EOT
+	exit 0
+	;;
+esac
+
+files=()
+for file; do
+	files+=("$(realpath -- "$file")") || exit 1
+done
+. "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+install $build_packages
+build build -Dtests=disabled
+[ ${#files[@]} -gt 0 ] || files=("$top/build/examples/hull.igs")
+
+batten=$top/build/executive/batten
+mkdir -p "$top/first-run" && cd "$top/first-run" || exit 1
+ids=()
+# job WORKER [--PARAMETER]... - queue it on all files
+job() {
+	local id
+	while read -r id; do
+		ids+=("$id")
+	done < <("$batten" submit "$1" "${files[@]}" "${@:2}")
+}
+job shading --png --edges
+job curvature --png
+job isophotes --svg
+job raytrace --png
+[ ${#ids[@]} -gt 0 ] || exit 1
+"$batten" jobs --follow "${ids[@]}"
+"$batten" wait "${ids[@]}"
+status=$?
+"$batten" jobs "${ids[@]}"
+say ""
+say "results are in $top/first-run:"
+ls -1 >&2
+exit $status
