@@ -133,6 +133,14 @@ static double reach(const double a[4], double h)
 	return fabs(a[0]) + h * (fabs(a[1]) + h * (fabs(a[2]) + h * fabs(a[3])));
 }
 
+/* The larger; infinite where x is no number. */
+static double grow(double size, double x)
+{
+	if (!isfinite(x))
+		return INFINITY;
+	return x > size ? x : size;
+}
+
 /* Multiplicity of a break where derivatives 0 .. join - 1 agree; one knot stays where all do, so
  * that no blossom is taken further away than a neighbour. */
 static int break_multiplicity(int degree, int join)
@@ -150,7 +158,7 @@ enum status make_power_curve(struct curve *out, const double *breaks, int segmen
 	double size = 0;
 	for (int i = 0; i < segments; i++) {
 		for (int d = 0; d < 3; d++) {
-			size = fmax(size, reach(c[i][d], breaks[i + 1] - breaks[i]));
+			size = grow(size, reach(c[i][d], breaks[i + 1] - breaks[i]));
 			for (int k = degree + 1; k < 4; k++)
 				if (c[i][d][k] != 0)
 					degree = k;
@@ -295,7 +303,7 @@ static void measure(struct patches *s, const double *u, int nu, const double *v,
 			       hv = v[i % nv + 1] - v[i % nv];
 			for (int l = 0; l < 4; l++)
 				sum += pow(hv, l) * reach(s->c[i][dim] + 4 * l, hu);
-			s->size = fmax(s->size, sum);
+			s->size = grow(s->size, sum);
 			for (int k = 0; k < 16; k++) {
 				if (s->c[i][dim][k] == 0)
 					continue;
