@@ -193,6 +193,8 @@ static void set_range(struct colormap *m, const struct sample *s, size_t n, doub
 		m->hi = fmax(fabs(m->lo), fabs(m->hi));
 		m->hi = fmax(m->hi, rounding);
 		m->lo = -m->hi;
+	} else if (m->lo > 0 && m->lo < 0.05 * m->hi) {
+		m->lo = 0;
 	} else if (m->hi - m->lo < rounding) {
 		m->hi = m->lo + rounding;
 	}

@@ -26,7 +26,11 @@ static void describe(struct words *w, const struct key *k)
 	number_for_reader(a, m->lo, 3);
 	number_for_reader(b, m->hi, 3);
 	say(w, "%s to %s", a, b);
-	say(w, "%s%s", m->by_hand ? "range by hand" : "2 to 98 % of area", "");
+	if (m->by_hand)
+		say(w, "%s%s", "range by hand", "");
+	else
+		say(w, "%s%s", m->is_signed || m->lo > 0 ? "2 to 98 % of area" : "98 % of area",
+		    "");
 	if (m->is_signed && m->lo == -m->hi)
 		say(w, "%s%s", "symmetric", "");
 	number_for_reader(a, m->knee, 3);

@@ -44,6 +44,8 @@ static void write_number(char out[TICK_TEXT], double x, int place, bool powers)
 	if (x < 0)
 		append(out, minus);
 	if (!powers) {
+		if (place > 0)
+			size = rint(size / pow(10, place)) * pow(10, place);
 		snprintf(digits, sizeof digits, "%.*f", place < 0 ? -place : 0, size);
 		append(out, digits);
 		return;
@@ -73,6 +75,7 @@ void number_for_reader(char out[TICK_TEXT], double x, int digits)
 	if (power)
 		strcpy(rest, power);
 	char *end = power ? power : out + strlen(out);
+	*end = 0;
 	while (end > point && (end[-1] == '0' || end[-1] == '.'))
 		*--end = 0;
 	append(out, rest);

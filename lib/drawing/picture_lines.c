@@ -1,0 +1,80 @@
+/* picture_lines.c - wire frames and curves, as PNG or SVG. */
+#include <math.h>
+
+#include "picture.h"
+#include "scene_lines.h"
+#include "sheet.h"
+
+static void draw_stroke(cairo_t *cr, const struct scene_line *l)
+{
+	for (size_t i = 0; i < l->stroke.n; i++) {
+		const struct stroke_piece *q = &l->stroke.pieces[i];
+		if (q->begins)
+			cairo_move_to(cr, q->p[0][0], q->p[0][1]);
+		cairo_curve_to(cr, q->p[1][0], q->p[1][1], q->p[2][0], q->p[2][1], q->p[3][0],
+		               q->p[3][1]);
+	}
+	cairo_set_source_rgba(cr, l->style.color.r, l->style.color.g, l->style.color.b,
+	                      l->style.opacity);
+	cairo_set_line_width(cr, l->style.width);
+	cairo_stroke(cr);
+}
+
+static void draw_plate(cairo_t *cr, const struct scene_text *t, struct rgb ground)
+{
+	const double radius = 4;
+	double b[4];
+	scene_plate(t, b);
+	cairo_new_sub_path(cr);
+	cairo_arc(cr, b[0] + b[2] - radius, b[1] + radius, radius, -M_PI / 2, 0);
+	cairo_arc(cr, b[0] + b[2] - radius, b[1] + b[3] - radius, radius, 0, M_PI / 2);
+	cairo_arc(cr, b[0] + radius, b[1] + b[3] - radius, radius, M_PI / 2, M_PI);
+	cairo_arc(cr, b[0] + radius, b[1] + radius, radius, M_PI, 1.5 * M_PI);
+	cairo_close_path(cr);
+	cairo_set_source_rgba(cr, ground.r, ground.g, ground.b, 0.85);
+	cairo_fill(cr);
+}
+
+static void draw(struct sheet *sheet, const struct scene_lines *s)
+{
+	cairo_t *cr = sheet->cr;
+	cairo_set_source_rgb(cr, s->ground.r, s->ground.g, s->ground.b);
+	cairo_paint(cr);
+	cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+	cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+	for (size_t i = 0; i < s->n_lines; i++)
+		draw_stroke(cr, &s->lines[i]);
+	for (size_t i = 0; i < s->n_texts; i++) {
+		const struct scene_text *t = &s->texts[i];
+		if (t->plate)
+			draw_plate(cr, t, s->ground);
+		label_draw(cr, t->style, t->color, t->x, t->y, 0, t->text);
+	}
+}
+
+enum status picture_lines(const char *path, enum picture_format format,
+                          const struct picture_lines *lines, enum theme theme,
+                          const struct report *r)
+{
+	struct sheet sheet;
+	struct scene_lines scene;
+	bool png = format == PICTURE_PNG;
+	enum status st = sheet_init(&sheet, path, png ? lines->camera->width : 0,
+	                            png ? lines->camera->height : 0, r);
+	if (st)
+		return st;
+	st = scene_lines_init(&scene, lines, theme, sheet.cr);
+	if (st) {
+		sheet_finish(&sheet);
+		return report_error(r, st, "cannot draw '%s': %s", path, status_text(st));
+	}
+	if (png) {
+		draw(&sheet, &scene);
+		st = sheet_write(&sheet, path, r);
+	} else {
+		st = svg_write(&scene, path, r);
+	}
+	scene_lines_finish(&scene);
+	sheet_finish(&sheet);
+	return st;
+}
