@@ -38,8 +38,15 @@ struct level; /* opaque: one surface, one field, its Bezier net; read-only after
  * Errors: ST_PARAMETER (direction 0, value out of range, tolerance <= 0), ST_RESOURCE.
  */
 enum status level_create(struct level **out, const struct surface *s,
-                         const struct level_field *field, double tolerance,
-                         const struct report *r);
+                         const struct level_field *field, double tolerance, const struct report *r);
+
+/*
+ * Another value on the same surface, kind, direction and tolerance. It borrows what `first`
+ * prepared: destroy it before. For LEVEL_PLANE the value goes with the direction as a unit vector.
+ * Errors: ST_PARAMETER, ST_RESOURCE.
+ */
+enum status level_create_like(struct level **out, const struct level *first, double value,
+                              const struct report *r);
 void level_destroy(struct level *l);
 
 size_t level_patches(const struct level *l);
@@ -50,14 +57,19 @@ size_t level_patches(const struct level *l);
  */
 enum status level_patch(const struct level *l, size_t patch, struct text *out);
 
-/* One connected piece. */
+/*
+ * One connected piece. Knots are threefold, so each span is a Bezier cubic; neighbours have the
+ * same tangent. Where u or v jumps (over a seam, through a pole) the knot is fourfold in both
+ * curves: uv jumps there, space does not. A closed one that goes over a seam begins there.
+ * Equal t on both curves gives points that differ by the order of the tolerance along the curve.
+ */
 struct level_branch {
 	struct curve uv;    /* owned: cubic B-spline in the surface's parameters, z = 0 */
 	struct curve space; /* owned: cubic B-spline in space, same knots */
-	bool closed;        /* has no ends; over a seam uv jumps by the period, see seams */
-	int seams;          /* how often uv goes over a seam: it is then cut there, in `cuts` */
+	bool closed;        /* has no ends */
+	int seams;          /* how often uv jumps, from end to start of a closed one too */
 	double length;      /* in space */
-	double max_error;   /* largest distance found from surface and exact curve, dense sampling */
+	double max_error;   /* largest distance found between either curve and the exact one */
 };
 
 struct level_box {
@@ -68,18 +80,19 @@ struct level_box {
 struct level_result {
 	struct level_branch *branches; /* owned */
 	size_t n_branches, n_closed;
-	struct level_box *undecided; /* owned */
+	struct level_box *undecided; /* owned; boxes that touch are one */
 	size_t n_undecided;
 	double length, max_error;
 };
 
 /*
- * Join the arcs of all patches; bytes[i], n[i] are what level_patch gave for patch i.
+ * Join the arcs of all patches. Each of the blocks holds what level_patch appended for one patch or
+ * several, one after another; patches rise through all blocks.
  * Branches come in an order that depends on nothing but the field and the surface.
  * Errors: ST_RESOURCE, ST_INTERNAL (bytes that no level_patch wrote).
  */
-enum status level_join(const struct level *l, const char *const *bytes, const size_t *n,
-                       struct level_result *out, const struct report *r);
+enum status level_join(const struct level *l, const char *const *blocks, const size_t *sizes,
+                       size_t n_blocks, struct level_result *out, const struct report *r);
 void level_result_finish(struct level_result *x);
 
 #endif

@@ -1,0 +1,166 @@
+/* level.c - a surface made ready for tracing one field, and its life. */
+#include "level_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Right-handed rows of unit vectors, the last along d. */
+static void frame_make(struct vec3 d, double frame[3][3])
+{
+	struct vec3 z = vec3_unit(d);
+	struct vec3 a = fabs(z.x) <= fabs(z.y) && fabs(z.x) <= fabs(z.z) ? vec3(1, 0, 0)
+	                : fabs(z.y) <= fabs(z.z)                         ? vec3(0, 1, 0)
+	                                                                 : vec3(0, 0, 1);
+	struct vec3 x = vec3_unit(vec3_cross(a, z)), y = vec3_cross(z, x);
+	struct vec3 rows[3] = { x, y, z };
+	for (int i = 0; i < 3; i++) {
+		frame[i][0] = rows[i].x;
+		frame[i][1] = rows[i].y;
+		frame[i][2] = rows[i].z;
+	}
+}
+
+static void surface_destroy(struct level_surface *s)
+{
+	if (!s)
+		return;
+	bezier_net_finish(&s->net);
+	free(s->normals);
+	free(s->edges[0]);
+	free(s->edges[1]);
+	free(s->binomial);
+	free(s);
+}
+
+static double *binomial_make(int n)
+{
+	double *b = malloc(sizeof *b * (n + 1) * (n + 2) / 2);
+	for (int i = 0; b && i <= n; i++) {
+		double *row = b + i * (i + 1) / 2;
+		row[0] = row[i] = 1;
+		for (int j = 1; j < i; j++)
+			row[j] = row[j - i] + row[j - i - 1];
+	}
+	return b;
+}
+
+static enum status surface_create(struct level_surface **out, const struct surface *from,
+                                  const struct level_field *field)
+{
+	struct level_surface *s = calloc(1, sizeof *s);
+	if (!s)
+		return ST_RESOURCE;
+	enum status st = bezier_net_init(&s->net, from);
+	if (st != ST_OK)
+		goto fail;
+	s->kind = field->kind;
+	frame_make(field->direction, s->frame);
+	int factors = s->net.rational ? 3 : 2, highest = 0;
+	for (int d = 0; d < 2; d++) {
+		s->degree[d] = factors * (s->net.order[d] - 1) - 1;
+		highest = highest > s->degree[d] ? highest : s->degree[d];
+	}
+	st = ST_RESOURCE;
+	s->binomial = binomial_make(2 * highest + 2);
+	s->edges[0] = calloc((size_t)(s->net.spans[0] + 1) * s->net.spans[1], 1);
+	s->edges[1] = calloc((size_t)s->net.spans[0] * (s->net.spans[1] + 1), 1);
+	if (!s->binomial || !s->edges[0] || !s->edges[1])
+		goto fail;
+	if (s->kind != LEVEL_PLANE) {
+		st = level_normals(s);
+		if (st != ST_OK)
+			goto fail;
+	}
+	level_edges(s);
+	*out = s;
+	return ST_OK;
+fail:
+	surface_destroy(s);
+	return st;
+}
+
+/* Value, tolerance and what follows from them. */
+static enum status level_set(struct level *l, const struct level_field *field, double tolerance,
+                             const struct report *r)
+{
+	const struct level_surface *s = l->surface;
+	bool angle = field->kind == LEVEL_ISOPHOTE;
+	if (!(tolerance > 0) || !isfinite(tolerance))
+		return report_error(r, ST_PARAMETER,
+		                    "tolerance %g, expected a length greater than 0", tolerance);
+	if (!isfinite(field->value) || (angle && fabs(field->value) > 1))
+		return report_error(r, ST_PARAMETER, "level %g, expected %s", field->value,
+		                    angle ? "a cosine from -1 to 1" : "a finite number");
+	l->tolerance = tolerance;
+	l->value = field->kind == LEVEL_SILHOUETTE ? 0 : field->value;
+	if (angle && fabs(l->value) < 1e-15)
+		l->value = 0;
+	l->sine = sqrt(fmax(0, (1 - l->value) * (1 + l->value)));
+	for (int d = 0; d < 3; d++)
+		l->direction[d] = s->frame[2][d];
+	l->direction[3] = -l->value / vec3_length(field->direction);
+	for (int d = 0; d < 2; d++)
+		l->degree[d] = s->kind == LEVEL_PLANE ? s->net.order[d] - 1
+		               : l->value == 0        ? s->degree[d]
+		                                      : 2 * s->degree[d];
+	return ST_OK;
+}
+
+static enum status level_new(struct level **out, struct level_surface *s, bool owner,
+                             const struct level_field *field, double tolerance,
+                             const struct report *r)
+{
+	struct level *l = calloc(1, sizeof *l);
+	if (!l)
+		return report_error(r, ST_RESOURCE, "no memory to trace curves on a surface");
+	l->surface = s;
+	enum status st = level_set(l, field, tolerance, r);
+	if (st != ST_OK) {
+		free(l);
+		return st;
+	}
+	l->owner = owner;
+	*out = l;
+	return ST_OK;
+}
+
+enum status level_create(struct level **out, const struct surface *s,
+                         const struct level_field *field, double tolerance, const struct report *r)
+{
+	struct level_surface *made = NULL;
+	double length = vec3_length(field->direction);
+	if (!(length > 0) || !isfinite(length))
+		return report_error(r, ST_PARAMETER,
+		                    "direction %g,%g,%g, expected one of finite length above 0",
+		                    field->direction.x, field->direction.y, field->direction.z);
+	enum status st = surface_create(&made, s, field);
+	if (st != ST_OK)
+		return report_error(r, st, "no memory for the Bezier patches of a surface");
+	st = level_new(out, made, true, field, tolerance, r);
+	if (st != ST_OK)
+		surface_destroy(made);
+	return st;
+}
+
+enum status level_create_like(struct level **out, const struct level *first, double value,
+                              const struct report *r)
+{
+	const double *d = first->direction;
+	struct level_field field = { first->surface->kind, vec3(d[0], d[1], d[2]), value };
+	return level_new(out, first->surface, false, &field, first->tolerance, r);
+}
+
+void level_destroy(struct level *l)
+{
+	if (!l)
+		return;
+	if (l->owner)
+		surface_destroy(l->surface);
+	free(l);
+}
+
+size_t level_patches(const struct level *l)
+{
+	return (size_t)l->surface->net.spans[0] * l->surface->net.spans[1];
+}

@@ -1,0 +1,277 @@
+/* level_arc.c - follow an arc through a certified cell and fit cubics to it, with a check.
+ *
+ * Between two points of the curve, with its tangents there, one cubic in space and one in u,v are
+ * set up. Their tangents have at first the length that suits a circle, then the one with which the
+ * middle lies on the curve. A few more points are compared with the exact curve; where one is too
+ * far off the arc is halved.
+ */
+#include "level_private.h"
+
+#include <math.h>
+
+enum { CHECKS = 5, FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000 };
+
+/* Part of the tolerance that the checks may use: between them the error is a little larger. */
+static const double check_share = 0.7;
+
+static const double check_at[CHECKS] = { 0.22, 0.78, 0.36, 0.64, 0.1 };
+
+struct station {
+	double uv[2], duv[2]; /* unit speed in space */
+	double p[3], dp[3];
+};
+
+struct follower {
+	struct tracer *t;
+	const struct cell_range *box;
+	int along;   /* the direction that the arc is a graph over */
+	bool rising; /* f rises in the other */
+	double turn; /* sign that makes tangents point along the graph's variable */
+	size_t first;
+};
+
+static double dot(const double *a, const double *b)
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The curve's tangent fu Sv - fv Su; returns its length (never 0). */
+static double tangent_of(const struct field_point *x, double *out)
+{
+	for (int d = 0; d < 3; d++)
+		out[d] = x->fu * x->sv[d] - x->fv * x->su[d];
+	return sqrt(dot(out, out)) + 1e-300;
+}
+
+static void station_set(const struct follower *w, const struct field_point *x, double u, double v,
+                        struct station *out)
+{
+	double l = w->turn / tangent_of(x, out->dp);
+	out->uv[0] = u;
+	out->uv[1] = v;
+	out->duv[0] = -x->fv * l;
+	out->duv[1] = x->fu * l;
+	for (int d = 0; d < 3; d++) {
+		out->p[d] = x->p[d];
+		out->dp[d] *= l;
+	}
+}
+
+/* The point of the curve at uv[along]; uv[other] is a guess. Newton's method in a bracket. */
+static void station_find(const struct follower *w, double uv[2], struct station *out)
+{
+	int other = 1 - w->along;
+	double lo = w->box->lo[other], hi = w->box->hi[other], y = fmin(fmax(uv[other], lo), hi);
+	struct field_point x;
+	double last = INFINITY;
+	for (int step = 0; step < 60; step++) {
+		uv[other] = y;
+		level_field_at(w->t, uv[0], uv[1], &x);
+		double move = x.f / (other == 0 ? x.fu : x.fv);
+		/* so small that it can be made without looking again */
+		if (fabs(move) < 1e-11 || (fabs(move) < 1e-7 && fabs(move) >= last)) {
+			if (fabs(move) < 1e-9) {
+				uv[other] = y - move;
+				for (int d = 0; d < 3; d++)
+					x.p[d] -= move * (other == 0 ? x.su[d] : x.sv[d]);
+			}
+			break;
+		}
+		last = fabs(move);
+		if ((x.f > 0) == w->rising)
+			hi = y;
+		else
+			lo = y;
+		y -= move;
+		if (!(y >= lo && y <= hi))
+			y = 0.5 * (lo + hi);
+	}
+	station_set(w, &x, uv[0], uv[1], out);
+}
+
+static void hermite(double t, double h[4])
+{
+	double s = 1 - t;
+	h[0] = s * s * (1 + 2 * t);
+	h[1] = t * t * (1 + 2 * s);
+	h[2] = t * s * s;
+	h[3] = -t * t * s;
+}
+
+/*
+ * What the exact curve is off from x, at right angles to it: to first order the nearest point of
+ * the curve is x.p + shift, reached by moving u,v by `duv`. tangent: the curve's, unit.
+ */
+static double nearest(const struct field_point *x, double tangent[3], double shift[3],
+                      double duv[2])
+{
+	double l = tangent_of(x, tangent);
+	for (int d = 0; d < 3; d++)
+		tangent[d] /= l;
+	double a = dot(x->su, tangent), b = dot(x->sv, tangent);
+	duv[0] = -x->f / l * b;
+	duv[1] = x->f / l * a;
+	for (int d = 0; d < 3; d++)
+		shift[d] = x->su[d] * duv[0] + x->sv[d] * duv[1];
+	return dot(shift, shift);
+}
+
+/* r without its part along the unit vector t; returns what is left, squared. */
+static double across(double r[3], const double t[3])
+{
+	double along = dot(r, t);
+	for (int d = 0; d < 3; d++)
+		r[d] -= along * t[d];
+	return dot(r, r);
+}
+
+/* Lengths of the tangents, in u,v and in space. */
+struct lengths {
+	double uv, space;
+};
+
+/*
+ * Correct the lengths so that the middle lies on the curve. uv: in, the middle of the cubic with
+ * the first lengths; out, moved onto the curve. Returns the error left, squared.
+ */
+static double middle_fit(const struct follower *w, const struct station *a, const struct station *b,
+                         struct lengths *l, double uv[2])
+{
+	struct field_point x;
+	double tangent[3], shift[3], duv[2], bulge[3], off[3], normal_bulge[3];
+	level_field_at(w->t, uv[0], uv[1], &x);
+	nearest(&x, tangent, shift, duv);
+	double fb = (x.fu * (a->duv[0] - b->duv[0]) + x.fv * (a->duv[1] - b->duv[1])) / 8;
+	double more = fb != 0 ? -x.f / fb : 0, length = l->space;
+	if (fabs(more) < 0.1 * length)
+		l->uv += more;
+	for (int d = 0; d < 3; d++) {
+		bulge[d] = (a->dp[d] - b->dp[d]) / 8;
+		normal_bulge[d] = bulge[d];
+		off[d] = x.p[d] + shift[d] - 0.5 * (a->p[d] + b->p[d]) - length * bulge[d];
+	}
+	double error = across(off, tangent), b2 = across(normal_bulge, tangent);
+	more = b2 > 0 ? dot(off, normal_bulge) / b2 : 0;
+	if (fabs(more) < 0.1 * length) {
+		l->space += more;
+		for (int d = 0; d < 3; d++)
+			off[d] -= more * normal_bulge[d];
+		error = dot(off, off);
+	}
+	uv[0] += duv[0];
+	uv[1] += duv[1];
+	return error;
+}
+
+/* Largest distance of both cubics from the exact curve at the check points, squared. */
+static double check(const struct follower *w, const struct station *a, const struct station *b,
+                    const struct lengths *l, double error, double limit)
+{
+	for (int k = 0; k < CHECKS && error < limit; k++) {
+		double h[4], uv[2], tangent[3], shift[3], duv[2], off[3];
+		struct field_point x;
+		hermite(check_at[k], h);
+		for (int d = 0; d < 2; d++)
+			uv[d] = h[0] * a->uv[d] + h[1] * b->uv[d] +
+			        l->uv * (h[2] * a->duv[d] + h[3] * b->duv[d]);
+		level_field_at(w->t, uv[0], uv[1], &x);
+		error = fmax(error, nearest(&x, tangent, shift, duv));
+		for (int d = 0; d < 3; d++)
+			off[d] = x.p[d] + shift[d] -
+			         (h[0] * a->p[d] + h[1] * b->p[d] +
+			          l->space * (h[2] * a->dp[d] + h[3] * b->dp[d]));
+		error = fmax(error, across(off, tangent));
+	}
+	return error;
+}
+
+static void piece_add(const struct follower *w, const struct station *a, const struct station *b,
+                      const struct lengths *l, double error)
+{
+	const struct station *s[2] = { a, b };
+	struct piece *p = list_add(&w->t->pieces, sizeof *p);
+	if (!p) {
+		w->t->failed = true;
+		return;
+	}
+	for (int e = 0; e < 2; e++) {
+		for (int d = 0; d < 2; d++) {
+			p->uv[e][d] = s[e]->uv[d];
+			p->duv[e][d] = l->uv * s[e]->duv[d];
+		}
+		for (int d = 0; d < 3; d++) {
+			p->p[e][d] = s[e]->p[d];
+			p->dp[e][d] = l->space * s[e]->dp[d];
+		}
+	}
+	p->error = sqrt(error);
+}
+
+static bool inside_nearly(const double uv[2])
+{
+	return uv[0] > -0.1 && uv[0] < 1.1 && uv[1] > -0.1 && uv[1] < 1.1;
+}
+
+static void fit(const struct follower *w, const struct station *a, const struct station *b,
+                int depth)
+{
+	double tolerance = w->t->level->tolerance, limit = check_share * tolerance;
+	double chord[3], error = INFINITY;
+	double uv[2] = { 0.5 * (a->uv[0] + b->uv[0]), 0.5 * (a->uv[1] + b->uv[1]) };
+	for (int d = 0; d < 3; d++)
+		chord[d] = b->p[d] - a->p[d];
+	double size = sqrt(dot(chord, chord)), turn = dot(a->dp, b->dp);
+	/* a circle's arc of that chord and turn: chord / cos^2 (angle / 4) */
+	double first = size * 2 / (1 + sqrt(fmax(0, (1 + turn) / 2)));
+	struct lengths l = { first, first };
+	bool tiny = size < 1e-3 * tolerance;
+	if (tiny) {
+		error = size * size;
+	} else if (turn > 0.3 && dot(chord, a->dp) > 0) {
+		double middle[2];
+		for (int d = 0; d < 2; d++)
+			middle[d] = uv[d] + first * (a->duv[d] - b->duv[d]) / 8;
+		if (inside_nearly(middle)) {
+			error = middle_fit(w, a, b, &l, middle);
+			error = check(w, a, b, &l, error, limit * limit);
+			uv[0] = middle[0];
+			uv[1] = middle[1];
+		}
+	}
+	bool enough = depth >= FIT_DEPTH_MAX ||
+	              (depth > FIT_DEPTH_EASY && w->t->pieces.n - w->first > PIECES_MAX);
+	if (tiny || error < limit * limit || enough || w->t->failed) {
+		piece_add(w, a, b, &l, isfinite(error) ? error : size * size);
+		return;
+	}
+	int along = w->along;
+	double from = a->uv[along], to = b->uv[along], share = (uv[along] - from) / (to - from);
+	if (!(share > 0.02 && share < 0.98))
+		uv[along] = 0.5 * (from + to);
+	struct station s;
+	station_find(w, uv, &s);
+	fit(w, a, &s, depth + 1);
+	fit(w, &s, b, depth + 1);
+}
+
+void level_arc_follow(struct tracer *t, const struct cell_range *box, int along, bool rising,
+                      const double ends[2][2])
+{
+	/* (-fv, fu) points towards larger v where fu > 0, towards larger u where fv < 0 */
+	double turn = (along == 1) == rising ? 1 : -1;
+	struct follower w = { t, box, along, rising, turn, t->pieces.n };
+	struct station s[2];
+	for (int e = 0; e < 2; e++) {
+		struct field_point x;
+		level_field_at(t, ends[e][0], ends[e][1], &x);
+		station_set(&w, &x, ends[e][0], ends[e][1], &s[e]);
+	}
+	fit(&w, &s[0], &s[1], 0);
+	struct arc *arc = list_add(&t->arcs, sizeof *arc);
+	if (!arc) {
+		t->failed = true;
+		return;
+	}
+	arc->first = (int)w.first;
+	arc->n = (int)(t->pieces.n - w.first);
+}

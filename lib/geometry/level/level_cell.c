@@ -1,0 +1,281 @@
+/* level_cell.c - halve a patch into cells until signs of coefficients tell what is in each.
+ *
+ * All coefficients of f of one sign: no curve. All differences in one direction of one sign: f is
+ * monotone there, the curve is a graph over the other direction, and the signs of f along the two
+ * sides that the graph may leave by tell every arc. Sign tests are exact in floating point, and
+ * halving is the same on both sides of a line, so neighbouring cells see the same ends.
+ */
+#include "level_form.h"
+#include "level_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A patch with many undecided cells is not halved so far any more. */
+enum { FEW_UNDECIDED = 64, MANY_UNDECIDED = 512, DEPTH_AFTER_FEW = 11, DEPTH_AFTER_MANY = 7 };
+
+enum monotone { MONOTONE_NOT, MONOTONE_RISING, MONOTONE_FALLING };
+
+static void undecided_add(struct tracer *t, const struct cell *cell, bool flat)
+{
+	struct undecided *x = list_add(&t->undecided, sizeof *x);
+	if (!x) {
+		t->failed = true;
+		return;
+	}
+	for (int d = 0; d < 2; d++) {
+		x->level[d] = cell->level[d];
+		x->index[d] = (int)cell->index[d];
+	}
+	x->flat = flat;
+}
+
+static enum monotone monotone_in(const double *c, int m, int n, int d)
+{
+	size_t step = d == 0 ? (size_t)n + 1 : 1;
+	int rows = d == 0 ? m : m + 1, columns = d == 0 ? n + 1 : n;
+	bool rising = true, falling = true;
+	for (int i = 0; i < rows && (rising || falling); i++) {
+		const double *x = c + (size_t)i * (n + 1);
+		for (int j = 0; j < columns; j++) {
+			rising &= x[j + step] > x[j];
+			falling &= x[j + step] < x[j];
+		}
+	}
+	return rising ? MONOTONE_RISING : falling ? MONOTONE_FALLING : MONOTONE_NOT;
+}
+
+/* Sum of second differences, as a measure of how far from linear f is. */
+static double bend_in(const double *c, int m, int n, int d)
+{
+	size_t step = d == 0 ? (size_t)n + 1 : 1;
+	int rows = d == 0 ? m - 1 : m + 1, columns = d == 0 ? n + 1 : n - 1;
+	double sum = 0;
+	for (int i = 0; i < rows; i++) {
+		const double *x = c + (size_t)i * (n + 1);
+		for (int j = 0; j < columns; j++)
+			sum += fabs(x[j] - 2 * x[j + step] + x[j + 2 * step]);
+	}
+	return sum;
+}
+
+/*
+ * f >= 0 touches zero in a corner, and its slope vanishes there too: the curve may be there and
+ * leave no sign. (Where the slope does not vanish the neighbour sees a change of sign.)
+ */
+static bool touches_in_corner(const double *c, int m, int n)
+{
+	for (int k = 0; k < 4; k++) {
+		size_t at = (size_t)(k / 2 ? m : 0) * (n + 1) + (k % 2 ? n : 0);
+		double u = c[k / 2 ? at - (n + 1) : at + (n + 1)], v = c[k % 2 ? at - 1 : at + 1];
+		if (c[at] == 0 && u == 0 && v == 0)
+			return true;
+	}
+	return false;
+}
+
+/* Change of f over the cell in direction d, in the patch's parameter. */
+static double change_in(const double *c, int m, int n, int d)
+{
+	size_t row = (size_t)n + 1, last = row * (m + 1) - 1;
+	if (d == 0)
+		return fabs(c[row * m] - c[0]) + fabs(c[last] - c[n]);
+	return fabs(c[n] - c[0]) + fabs(c[last] - c[row * m]);
+}
+
+static struct cell_range range_of(const struct cell *cell)
+{
+	struct cell_range r;
+	for (int d = 0; d < 2; d++) {
+		double size = ldexp(1, -cell->level[d]);
+		r.lo[d] = cell->index[d] * size;
+		r.hi[d] = (cell->index[d] + 1.0) * size;
+	}
+	return r;
+}
+
+/* The line that bounds a cell in direction d, below or above it. */
+static int line_of(const struct cell *cell, int d, bool upper)
+{
+	return (int)((cell->index[d] + upper) << (LINE_BITS - cell->level[d]));
+}
+
+/* One arc's end: on a side across (the graph leaves by it) or on an end of the graph's range. */
+struct place {
+	bool across;  /* on the lower or upper side of the direction that f is monotone in */
+	bool upper;   /* which of the two sides */
+	double along; /* [0, 1] in the cell */
+};
+
+struct graph {
+	struct tracer *t;
+	const struct cell *cell;
+	const double *c;
+	int along; /* direction of the graph's variable; f is monotone in the other */
+	bool rising;
+};
+
+/* Coefficients on the side of the cell where direction d is at its lower or upper end. */
+static int side_get(const struct graph *g, int d, bool upper, double *out)
+{
+	int m = g->t->level->degree[0], n = g->t->level->degree[1];
+	size_t row = (size_t)n + 1;
+	const double *c = g->c + (!upper ? 0 : d == 0 ? row * m : (size_t)n);
+	int count = d == 0 ? n : m;
+	for (int i = 0; i <= count; i++)
+		out[i] = c[d == 0 ? (size_t)i : row * i];
+	return count;
+}
+
+static void arc_add(const struct graph *g, const struct place ends[2])
+{
+	struct tracer *t = g->t;
+	int along = g->along, other = 1 - along;
+	struct cell_range r = range_of(g->cell);
+	double uv[2][2], side[FIELD_DEGREE_MAX + 1];
+	int arc = (int)t->arcs.n;
+	for (int e = 0; e < 2; e++) {
+		struct arc_end *x = list_add(&t->ends, sizeof *x);
+		double y = ends[e].upper, w = ends[e].along;
+		if (!x) {
+			t->failed = true;
+			return;
+		}
+		if (!ends[e].across) {
+			int n = side_get(g, along, ends[e].upper, side);
+			w = ends[e].upper;
+			y = side[0] >= 0 ? 0 : 1;
+			root_single(side, n, &y);
+		}
+		uv[e][along] = r.lo[along] + (r.hi[along] - r.lo[along]) * w;
+		uv[e][other] = r.lo[other] + (r.hi[other] - r.lo[other]) * y;
+		x->d = ends[e].across ? other : along;
+		x->upper = !ends[e].upper;
+		x->line = line_of(g->cell, x->d, ends[e].upper);
+		x->arc = arc;
+		x->end = e;
+		x->at = uv[e][1 - x->d];
+	}
+	level_arc_follow(t, &r, along, g->rising, uv);
+}
+
+/*
+ * Walk along the graph's variable through the places where f changes sign on the two sides. The
+ * curve is between the sides while their signs differ.
+ */
+static void arcs_find(const struct graph *g)
+{
+	double side[2][FIELD_DEGREE_MAX + 1], root[2][FIELD_DEGREE_MAX + 2];
+	int n[2], next[2] = { 0, 0 };
+	bool positive[2], in;
+	struct place ends[2] = { { 0 } };
+	for (int k = 0; k < 2; k++) {
+		int degree = side_get(g, 1 - g->along, k, side[k]);
+		n[k] = roots_find(side[k], degree, root[k]);
+		positive[k] = side[k][0] >= 0;
+	}
+	in = positive[0] != positive[1];
+	for (;;) {
+		int k = -1;
+		if (next[0] < n[0] && next[1] < n[1]) {
+			k = root[1][next[1]] < root[0][next[0]];
+			/* the order of two that rounding made equal follows from the slope's sign */
+			bool lower = positive[0] != (k == 0), upper = positive[1] != (k == 1);
+			if (g->rising ? lower && !upper : !lower && upper)
+				k = !k;
+		} else if (next[0] < n[0] || next[1] < n[1]) {
+			k = next[0] < n[0] ? 0 : 1;
+		}
+		if (k < 0) {
+			if (in) {
+				ends[1] = (struct place){ .upper = true };
+				arc_add(g, ends);
+			}
+			return;
+		}
+		ends[in] = (struct place){ true, k, root[k][next[k]] };
+		next[k]++;
+		positive[k] = !positive[k];
+		if (in)
+			arc_add(g, ends);
+		in = !in;
+	}
+}
+
+/* True where the cell is certain, and its arcs are done. */
+static bool cell_decide(struct tracer *t, const struct cell *cell, const double *c)
+{
+	int m = t->level->degree[0], n = t->level->degree[1];
+	enum monotone in[2] = { monotone_in(c, m, n, 0), monotone_in(c, m, n, 1) };
+	if (!in[0] && !in[1])
+		return false;
+	int d = in[0] ? 0 : 1;
+	if (in[0] && in[1])
+		d = ldexp(change_in(c, m, n, 0), cell->level[0]) >=
+		                    ldexp(change_in(c, m, n, 1), cell->level[1])
+		            ? 0
+		            : 1;
+	struct graph g = { t, cell, c, 1 - d, in[d] == MONOTONE_RISING };
+	arcs_find(&g);
+	return true;
+}
+
+/* The array of cells at a depth, made when first needed. */
+static double *scratch_at(struct tracer *t, int depth)
+{
+	if (!t->scratch[depth])
+		t->scratch[depth] = malloc(sizeof(double) * (t->n_field + t->n_side));
+	if (!t->scratch[depth])
+		t->failed = true;
+	return t->scratch[depth];
+}
+
+static void cell_search(struct tracer *t, double *c, struct cell cell, int depth)
+{
+	int m = t->level->degree[0], n = t->level->degree[1];
+	const struct level_surface *s = t->level->surface;
+	double most = 0;
+	if (t->failed)
+		return;
+	for (size_t i = 0; i < t->n_field; i++)
+		most = fabs(c[i]) > most ? fabs(c[i]) : most;
+	if (most <= ZERO_SHARE * t->scale) {
+		undecided_add(t, &cell, true);
+		return;
+	}
+	int sign = form_sign(c, t->n_field);
+	if (sign < 0 || (sign > 0 && !touches_in_corner(c, m, n)))
+		return;
+	int side = t->n_side ? form_sign(c + t->n_field, t->n_side) : 1;
+	if (side < 0)
+		return;
+	if (side > 0 && sign == 0 && cell_decide(t, &cell, c))
+		return;
+	size_t found = t->undecided.n;
+	int deepest = found < FEW_UNDECIDED    ? CELL_DEPTH_MAX
+	              : found < MANY_UNDECIDED ? DEPTH_AFTER_FEW
+	                                       : DEPTH_AFTER_MANY;
+	if (cell.level[0] >= deepest || cell.level[1] >= deepest) {
+		undecided_add(t, &cell, false);
+		return;
+	}
+	int d = bend_in(c, m, n, 0) * m * m >= bend_in(c, m, n, 1) * n * n ? 0 : 1;
+	if (cell.level[d] > cell.level[1 - d] + 6)
+		d = 1 - d;
+	double *lower = scratch_at(t, depth);
+	if (!lower)
+		return;
+	form_split(c, m, n, d, lower);
+	if (t->n_side)
+		form_split(c + t->n_field, s->degree[0], s->degree[1], d, lower + t->n_field);
+	cell.level[d]++;
+	cell.index[d] *= 2;
+	cell_search(t, lower, cell, depth + 1);
+	cell.index[d]++;
+	cell_search(t, c, cell, depth + 1);
+}
+
+void level_search(struct tracer *t, double *c)
+{
+	cell_search(t, c, (struct cell){ 0 }, 0);
+}

@@ -1,0 +1,190 @@
+/* level_field.c - f on one patch: its Bernstein form, and its value with the surface's.
+ *
+ * In the frame whose third axis is the light an isophote is sin^2 z^2 - cos^2 (x^2 + y^2) = 0 for
+ * the normal (x, y, z), with z of the sign of the cosine; at 90 degrees it is z = 0.
+ */
+#include "level_form.h"
+#include "level_private.h"
+
+#include <math.h>
+#include <string.h>
+
+static const struct level_surface *surface_of(const struct tracer *t)
+{
+	return t->level->surface;
+}
+
+/*
+ * All normals' coefficients, and so all normals, lie inside the cone of the angle about the light,
+ * or all beyond one plane that touches it.
+ */
+static bool cone_excludes(const struct tracer *t, size_t count)
+{
+	const double c = fabs(t->level->value), s = t->level->sine;
+	const double sign = t->level->value < 0 ? -1 : 1;
+	double mx = 0, my = 0;
+	bool inside = true;
+	for (size_t i = 0; i < count; i++) {
+		const double *n = t->normals + 4 * i;
+		double z = sign * n[2];
+		mx += n[0];
+		my += n[1];
+		if (!(z > 0 && s * s * z * z > c * c * (n[0] * n[0] + n[1] * n[1]) * (1 + 1e-12)))
+			inside = false;
+	}
+	if (inside)
+		return true;
+	double l = hypot(mx, my);
+	if (!(l > 0))
+		return false;
+	mx *= c / l;
+	my *= c / l;
+	for (size_t i = 0; i < count; i++) {
+		const double *n = t->normals + 4 * i;
+		double beyond = mx * n[0] + my * n[1] - sign * s * n[2];
+		if (!(beyond > 1e-12 * (fabs(n[0]) + fabs(n[1]) + fabs(n[2]))))
+			return false;
+	}
+	return true;
+}
+
+static bool isophote_make(struct tracer *t, double *out)
+{
+	const struct level_surface *s = surface_of(t);
+	int m = s->degree[0], n = s->degree[1];
+	size_t count = (size_t)(m + 1) * (n + 1);
+	double c = t->level->value, sine = t->level->sine, scale = 0;
+	if (cone_excludes(t, count))
+		return false;
+	for (size_t i = 0; i < count; i++) {
+		const double *p = t->normals + 4 * i;
+		scale = fmax(scale, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+	}
+	t->scale = scale;
+	memset(out, 0, sizeof *out * t->n_field);
+	for (int k = 0; k < 3; k++) {
+		for (size_t i = 0; i < count; i++)
+			t->product[i] = t->normals[4 * i + k];
+		form_scale(t->product, m, n, s->binomial, false);
+		form_square(t->product, m, n, k == 2 ? sine * sine : -c * c, out);
+	}
+	form_scale(out, 2 * m, 2 * n, s->binomial, true);
+	for (size_t i = 0; i < count; i++)
+		out[t->n_field + i] = c < 0 ? -t->normals[4 * i + 2] : t->normals[4 * i + 2];
+	return true;
+}
+
+static bool silhouette_make(struct tracer *t, double *out)
+{
+	double scale = 0;
+	for (size_t i = 0; i < t->n_field; i++) {
+		const double *p = t->normals + 4 * i;
+		out[i] = p[2];
+		scale = fmax(scale, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+	}
+	t->scale = sqrt(scale);
+	return true;
+}
+
+static bool plane_make(struct tracer *t, double *out)
+{
+	const double *n = t->level->direction;
+	double scale = 0;
+	for (size_t i = 0; i < t->n_field; i++) {
+		const double *p = t->points + 4 * i;
+		double x[4] = { n[0] * p[0], n[1] * p[1], n[2] * p[2], n[3] * p[3] };
+		out[i] = x[0] + x[1] + x[2] + x[3];
+		scale = fmax(scale, fabs(x[0]) + fabs(x[1]) + fabs(x[2]) + fabs(x[3]));
+	}
+	t->scale = scale;
+	return true;
+}
+
+/* Largest coefficient on a side of the patch; where it is rounding, the side becomes zero. */
+static bool side_is_zero(const struct tracer *t, double *c, int d, bool upper)
+{
+	int m = t->level->degree[0], n = t->level->degree[1];
+	size_t first = !upper ? 0 : d == 0 ? (size_t)m * (n + 1) : (size_t)n;
+	size_t step = d == 0 ? 1 : (size_t)n + 1;
+	int count = d == 0 ? n : m;
+	for (int i = 0; i <= count; i++)
+		if (fabs(c[first + step * i]) > ZERO_SHARE * t->scale)
+			return false;
+	for (int i = 0; i <= count; i++)
+		c[first + step * i] = 0;
+	return true;
+}
+
+/*
+ * f is zero all along a side that is one point: the curve goes through the pole, and f without its
+ * factor tells in which directions.
+ */
+static void take_out_poles(struct tracer *t, double *c)
+{
+	const struct level_surface *s = surface_of(t);
+	int m = t->level->degree[0], n = t->level->degree[1];
+	for (int side = 0; side < 4; side++) {
+		int d = side / 2, upper = side % 2;
+		int at = t->place[d] + upper;
+		size_t edge = d == 0 ? level_edge(s, 0, at, t->place[1])
+		                     : level_edge(s, 1, t->place[0], at);
+		if (!side_is_zero(t, c, d, upper) || s->edges[d][edge] != EDGE_POLE)
+			continue;
+		form_scale(c, m, n, s->binomial, false);
+		form_divide(c, m, n, d, upper);
+		form_scale(c, m, n, s->binomial, true);
+		t->own_field = true;
+	}
+}
+
+bool level_field_make(struct tracer *t, double *out)
+{
+	const struct level *l = t->level;
+	t->own_field = false;
+	bool there = surface_of(t)->kind == LEVEL_PLANE ? plane_make(t, out)
+	             : l->value == 0                    ? silhouette_make(t, out)
+	                                                : isophote_make(t, out);
+	if (!there)
+		return false;
+	take_out_poles(t, out);
+	if (t->own_field)
+		memcpy(t->field, out, sizeof *out * t->n_field);
+	return true;
+}
+
+void level_field_at(const struct tracer *t, double u, double v, struct field_point *out)
+{
+	const struct level *l = t->level;
+	const struct level_surface *s = l->surface;
+	double x[4], xu[4], xv[4];
+	form_evaluate4(t->points, s->net.order[0] - 1, s->net.order[1] - 1, u, v, x, xu, xv);
+	if (t->own_field) {
+		form_evaluate(t->field, l->degree[0], l->degree[1], u, v, &out->f, &out->fu,
+		              &out->fv);
+	} else if (s->kind == LEVEL_PLANE) {
+		const double *n = l->direction;
+		out->f = n[0] * x[0] + n[1] * x[1] + n[2] * x[2] + n[3] * x[3];
+		out->fu = n[0] * xu[0] + n[1] * xu[1] + n[2] * xu[2] + n[3] * xu[3];
+		out->fv = n[0] * xv[0] + n[1] * xv[1] + n[2] * xv[2] + n[3] * xv[3];
+	} else {
+		double n[4], nu[4], nv[4];
+		form_evaluate4(t->normals, s->degree[0], s->degree[1], u, v, n, nu, nv);
+		if (l->value == 0) {
+			out->f = n[2];
+			out->fu = nu[2];
+			out->fv = nv[2];
+		} else {
+			double c2 = l->value * l->value, s2 = l->sine * l->sine;
+			double a = -2 * c2 * n[0], b = -2 * c2 * n[1], c = 2 * s2 * n[2];
+			out->f = 0.5 * (a * n[0] + b * n[1] + c * n[2]);
+			out->fu = a * nu[0] + b * nu[1] + c * nu[2];
+			out->fv = a * nv[0] + b * nv[1] + c * nv[2];
+		}
+	}
+	double w = s->net.rational ? 1 / x[3] : 1;
+	for (int d = 0; d < 3; d++) {
+		out->p[d] = x[d] * w;
+		out->su[d] = s->net.rational ? (xu[d] - out->p[d] * xu[3]) * w : xu[d];
+		out->sv[d] = s->net.rational ? (xv[d] - out->p[d] * xv[3]) * w : xv[d];
+	}
+}

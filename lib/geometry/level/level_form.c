@@ -1,0 +1,191 @@
+/* level_form.c - arithmetic of Bernstein forms in two variables.
+ *
+ * Every function does the same operations in the same order for a coefficient of a border, whichever
+ * of the two patches it is computed for: equal borders of the factors give borders of the product
+ * that are equal to the bit.
+ */
+#include "level_form.h"
+#include "level_private.h"
+
+#include <string.h>
+
+void form_product(const double *a, int am, int an, const double *b, int bm, int bn, double weight,
+                  double *out)
+{
+	int n = an + bn;
+	for (int i = 0; i <= am; i++)
+		for (int k = 0; k <= bm; k++) {
+			double *o = out + (size_t)(i + k) * (n + 1);
+			const double *y = b + (size_t)k * (bn + 1);
+			for (int j = 0; j <= an; j++) {
+				double x = weight * a[(size_t)i * (an + 1) + j];
+				for (int l = 0; l <= bn; l++)
+					o[j + l] += x * y[l];
+			}
+		}
+}
+
+void form_square(const double *a, int m, int n, double weight, double *out)
+{
+	for (int i = 0; i <= m; i++)
+		for (int k = i; k <= m; k++) {
+			double *o = out + (size_t)(i + k) * (2 * n + 1);
+			const double *x = a + (size_t)i * (n + 1), *y = a + (size_t)k * (n + 1);
+			double w = k > i ? 2 * weight : weight;
+			for (int j = 0; j <= n; j++) {
+				double s = w * x[j];
+				for (int l = 0; l <= n; l++)
+					o[j + l] += s * y[l];
+			}
+		}
+}
+
+void form_scale(double *c, int m, int n, const double *binomial, bool back)
+{
+	const double *bm = binomial_row(binomial, m), *bn = binomial_row(binomial, n);
+	for (int i = 0; i <= m; i++)
+		for (int j = 0; j <= n; j++) {
+			double s = bm[i] * bn[j];
+			double *x = &c[(size_t)i * (n + 1) + j];
+			*x = back ? *x / s : *x * s;
+		}
+}
+
+void form_divide(double *c, int m, int n, int d, bool upper)
+{
+	int count = d == 0 ? m : n, lines = d == 0 ? n : m;
+	size_t step = d == 0 ? (size_t)n + 1 : 1, across = d == 0 ? 1 : (size_t)n + 1;
+	for (int l = 0; l <= lines; l++) {
+		double *x = c + across * l;
+		/* q[i] of degree count - 1, times (1 - t) + t: q[i] + q[i - 1] */
+		if (upper) {
+			for (int i = count; i > 0; i--)
+				x[step * i] = (i < count ? x[step * i] : 0) + x[step * (i - 1)];
+		} else {
+			for (int i = 0; i < count; i++)
+				x[step * i] = x[step * (i + 1)] + (i > 0 ? x[step * i] : 0);
+		}
+	}
+}
+
+void form_split(double *c, int m, int n, int d, double *lower)
+{
+	size_t row = (size_t)n + 1;
+	if (d == 0) {
+		memcpy(lower, c, sizeof *c * row);
+		for (int s = 1; s <= m; s++) {
+			for (size_t k = 0; k < row * (size_t)(m + 1 - s); k++)
+				c[k] = 0.5 * (c[k] + c[k + row]);
+			memcpy(lower + row * s, c, sizeof *c * row);
+		}
+		return;
+	}
+	for (int i = 0; i <= m; i++) {
+		double *x = c + row * i, *y = lower + row * i;
+		y[0] = x[0];
+		for (int s = 1; s <= n; s++) {
+			for (int j = 0; j <= n - s; j++)
+				x[j] = 0.5 * (x[j] + x[j + 1]);
+			y[s] = x[0];
+		}
+	}
+}
+
+int form_sign(const double *c, size_t count)
+{
+	double lo = c[0], hi = c[0];
+	for (size_t i = 1; i < count; i++) {
+		lo = c[i] < lo ? c[i] : lo;
+		hi = c[i] > hi ? c[i] : hi;
+	}
+	return lo >= 0 ? 1 : hi < 0 ? -1 : 0;
+}
+
+/* Bernstein polynomials of degree n and their derivatives. Inlined for the common degrees. */
+static inline __attribute__((always_inline)) void basis(int n, double t, double *b, double *d)
+{
+	double c[NORMAL_DEGREE_MAX * 2 + 2];
+	if (n == 0) {
+		b[0] = 1;
+		d[0] = 0;
+		return;
+	}
+	c[0] = 1;
+	for (int r = 1; r < n; r++) {
+		double left = 0;
+		for (int i = 0; i < r; i++) {
+			double x = c[i];
+			c[i] = left + (1 - t) * x;
+			left = t * x;
+		}
+		c[r] = left;
+	}
+	b[0] = (1 - t) * c[0];
+	d[0] = -n * c[0];
+	for (int i = 1; i < n; i++) {
+		b[i] = (1 - t) * c[i] + t * c[i - 1];
+		d[i] = n * (c[i - 1] - c[i]);
+	}
+	b[n] = t * c[n - 1];
+	d[n] = n * c[n - 1];
+}
+
+void form_evaluate(const double *c, int m, int n, double u, double v, double *f, double *fu,
+                   double *fv)
+{
+	double bu[FIELD_DEGREE_MAX + 1], du[FIELD_DEGREE_MAX + 1];
+	double bv[FIELD_DEGREE_MAX + 1], dv[FIELD_DEGREE_MAX + 1];
+	basis(m, u, bu, du);
+	basis(n, v, bv, dv);
+	double s = 0, su = 0, sv = 0;
+	for (int i = 0; i <= m; i++, c += n + 1) {
+		double x = 0, y = 0;
+		for (int j = 0; j <= n; j++) {
+			x += bv[j] * c[j];
+			y += dv[j] * c[j];
+		}
+		s += bu[i] * x;
+		su += du[i] * x;
+		sv += bu[i] * y;
+	}
+	*f = s;
+	*fu = su;
+	*fv = sv;
+}
+
+typedef double vec4 __attribute__((vector_size(32), aligned(8)));
+
+static inline __attribute__((always_inline)) void sum4(const double *p, int m, int n, double u,
+                                                       double v, double *f, double *fu, double *fv)
+{
+	double bu[FIELD_DEGREE_MAX + 1], du[FIELD_DEGREE_MAX + 1];
+	double bv[FIELD_DEGREE_MAX + 1], dv[FIELD_DEGREE_MAX + 1];
+	const vec4 *c = (const vec4 *)p;
+	basis(m, u, bu, du);
+	basis(n, v, bv, dv);
+	vec4 s = { 0 }, su = { 0 }, sv = { 0 };
+	for (int i = 0; i <= m; i++, c += n + 1) {
+		vec4 x = { 0 }, y = { 0 };
+		for (int j = 0; j <= n; j++) {
+			x += bv[j] * c[j];
+			y += dv[j] * c[j];
+		}
+		s += bu[i] * x;
+		su += du[i] * x;
+		sv += bu[i] * y;
+	}
+	*(vec4 *)f = s;
+	*(vec4 *)fu = su;
+	*(vec4 *)fv = sv;
+}
+
+void form_evaluate4(const double *c, int m, int n, double u, double v, double f[4], double fu[4],
+                    double fv[4])
+{
+	if (m == 3 && n == 3)
+		sum4(c, 3, 3, u, v, f, fu, fv);
+	else if (m == 5 && n == 5)
+		sum4(c, 5, 5, u, v, f, fu, fv);
+	else
+		sum4(c, m, n, u, v, f, fu, fv);
+}

@@ -1,0 +1,41 @@
+/* level_form.h - polynomials in two variables as arrays of Bernstein coefficients.
+ *
+ * c[i * (n + 1) + j], degree m in u and n in v. In the scaled form each coefficient is multiplied
+ * by its binomials: then a product is a plain convolution, and taking the first or last row away
+ * divides by u or 1 - u.
+ */
+#ifndef BATTEN_LEVEL_FORM_H
+#define BATTEN_LEVEL_FORM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* out += weight a b, all scaled; degrees am x an and bm x bn. */
+void form_product(const double *a, int am, int an, const double *b, int bm, int bn, double weight,
+                  double *out);
+
+/* out += weight a a. */
+void form_square(const double *a, int m, int n, double weight, double *out);
+
+/* To the scaled form, or back. */
+void form_scale(double *c, int m, int n, const double *binomial, bool back);
+
+/* Divide the scaled form by the linear factor that vanishes on side (d, upper), whose coefficients
+ * there are dropped, and raise the degree back. */
+void form_divide(double *c, int m, int n, int d, bool upper);
+
+/* Halve in direction d: `lower` receives the lower half, c keeps the upper one. */
+void form_split(double *c, int m, int n, int d, double *lower);
+
+/* 1: all c >= 0, -1: all c < 0, 0: neither. */
+int form_sign(const double *c, size_t count);
+
+/* Value and derivatives. */
+void form_evaluate(const double *c, int m, int n, double u, double v, double *f, double *fu,
+                   double *fv);
+
+/* The same for coefficients of four numbers each. */
+void form_evaluate4(const double *c, int m, int n, double u, double v, double f[4], double fu[4],
+                    double fv[4]);
+
+#endif

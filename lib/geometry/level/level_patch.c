@@ -1,0 +1,260 @@
+/* level_patch.c - the work on one patch, from f to strands as bytes.
+ *
+ * Arcs that meet on a line between two cells are linked here; what reaches the border of the patch
+ * is left to level_join.
+ */
+#include "level_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Between cells one of which stayed undecided, ends are paired that lie this near. */
+static const double near_on_line = 1e-7;
+
+void *list_add(struct list *l, size_t size)
+{
+	if (l->n == l->cap) {
+		size_t cap = l->cap ? 2 * l->cap : 64;
+		void *p = l->failed ? NULL : realloc(l->p, cap * size);
+		if (!p) {
+			l->failed = true;
+			return NULL;
+		}
+		l->p = p;
+		l->cap = cap;
+	}
+	return memset((char *)l->p + size * l->n++, 0, size);
+}
+
+static int end_compare(const void *x, const void *y)
+{
+	const struct arc_end *a = x, *b = y;
+	if (a->d != b->d)
+		return a->d - b->d;
+	if (a->line != b->line)
+		return a->line < b->line ? -1 : 1;
+	if (a->upper != b->upper)
+		return a->upper - b->upper;
+	if (a->at != b->at)
+		return a->at < b->at ? -1 : 1;
+	return 2 * a->arc + a->end - (2 * b->arc + b->end);
+}
+
+/* What an arc's end leads to: another end as 2 arc + end, or one of these. */
+enum { LINK_LOOSE = -1, LINK_BORDER = -2 };
+
+struct patch_links {
+	int *to;                    /* 2 an arc */
+	const struct arc_end **end; /* the end's own record */
+};
+
+static void link_pair(struct patch_links *k, const struct arc_end *a, const struct arc_end *b)
+{
+	int x = 2 * a->arc + a->end, y = 2 * b->arc + b->end;
+	k->to[x] = y;
+	k->to[y] = x;
+}
+
+/* Ends a[0..n) from below a line and b[0..m) from above, both rising. */
+static void link_line(struct patch_links *k, const struct arc_end *a, int n,
+                      const struct arc_end *b, int m)
+{
+	if (n == m) {
+		bool near = true;
+		for (int i = 0; i < n; i++)
+			near &= fabs(a[i].at - b[i].at) < near_on_line;
+		for (int i = 0; near && i < n; i++)
+			link_pair(k, &a[i], &b[i]);
+		if (near)
+			return;
+	}
+	for (int i = 0, j = 0; i < n && j < m;) {
+		if (fabs(a[i].at - b[j].at) < near_on_line)
+			link_pair(k, &a[i++], &b[j++]);
+		else if (a[i].at < b[j].at)
+			i++;
+		else
+			j++;
+	}
+}
+
+static void link_arcs(struct tracer *t, struct patch_links *k)
+{
+	struct arc_end *e = t->ends.p;
+	int n = (int)t->ends.n;
+	qsort(e, n, sizeof *e, end_compare);
+	for (int i = 0; i < n; i++) {
+		k->to[2 * e[i].arc + e[i].end] = LINK_LOOSE;
+		k->end[2 * e[i].arc + e[i].end] = &e[i];
+	}
+	for (int i = 0; i < n;) {
+		int middle, end;
+		for (middle = i; middle < n && e[middle].d == e[i].d &&
+		                 e[middle].line == e[i].line && !e[middle].upper;)
+			middle++;
+		for (end = middle; end < n && e[end].d == e[i].d && e[end].line == e[i].line;)
+			end++;
+		if (e[i].line == 0 || e[i].line == 1 << LINE_BITS)
+			for (int j = i; j < end; j++)
+				k->to[2 * e[j].arc + e[j].end] = LINK_BORDER;
+		else
+			link_line(k, e + i, middle - i, e + middle, end - middle);
+		i = end;
+	}
+}
+
+void piece_reverse(struct piece *p)
+{
+	for (int d = 0; d < 3; d++) {
+		double x = p->p[0][d], y = p->dp[0][d];
+		p->p[0][d] = p->p[1][d];
+		p->p[1][d] = x;
+		p->dp[0][d] = -p->dp[1][d];
+		p->dp[1][d] = -y;
+	}
+	for (int d = 0; d < 2; d++) {
+		double x = p->uv[0][d], y = p->duv[0][d];
+		p->uv[0][d] = p->uv[1][d];
+		p->uv[1][d] = x;
+		p->duv[0][d] = -p->duv[1][d];
+		p->duv[1][d] = -y;
+	}
+}
+
+/* Append the arc's pieces, backwards where it is entered at its end 1. */
+static void strand_add_arc(struct list *pieces, const struct tracer *t, int from)
+{
+	const struct arc *a = (const struct arc *)t->arcs.p + from / 2;
+	const struct piece *p = (const struct piece *)t->pieces.p + a->first;
+	for (int i = 0; i < a->n; i++) {
+		struct piece *out = list_add(pieces, sizeof *out);
+		if (!out)
+			return;
+		*out = p[from % 2 ? a->n - 1 - i : i];
+		if (from % 2)
+			piece_reverse(out);
+	}
+}
+
+static struct strand_end strand_end(const struct patch_links *k, int at)
+{
+	struct strand_end e = { .kind = STRAND_LOOSE };
+	if (k->to[at] == LINK_BORDER) {
+		e.kind = STRAND_BORDER;
+		e.d = k->end[at]->d;
+		e.upper = k->end[at]->line != 0;
+		e.at = k->end[at]->at;
+	}
+	return e;
+}
+
+/* The strand that begins with arc end `from`; `closed`: it comes back to it. */
+static void strand_add(const struct tracer *t, const struct patch_links *k, bool *done, int from,
+                       bool closed, struct list *strands, struct list *pieces)
+{
+	struct strand *s = list_add(strands, sizeof *s);
+	int at = from;
+	if (!s)
+		return;
+	s->first = (int)pieces->n;
+	for (;;) {
+		done[at / 2] = true;
+		strand_add_arc(pieces, t, at);
+		int next = k->to[at ^ 1];
+		if (next < 0 || done[next / 2])
+			break;
+		at = next;
+	}
+	s->n = (int)pieces->n - s->first;
+	if (closed) {
+		s->end[0].kind = s->end[1].kind = STRAND_CLOSED;
+	} else {
+		s->end[0] = strand_end(k, from);
+		s->end[1] = strand_end(k, at ^ 1);
+	}
+}
+
+static enum status strands_make(struct tracer *t, struct list *strands, struct list *pieces)
+{
+	size_t n = t->arcs.n;
+	struct patch_links k = { calloc(2 * n + 1, sizeof *k.to),
+		                 calloc(2 * n + 1, sizeof *k.end) };
+	bool *done = calloc(n + 1, sizeof *done);
+	enum status st = ST_RESOURCE;
+	if (!k.to || !k.end || !done)
+		goto out;
+	link_arcs(t, &k);
+	for (size_t e = 0; e < 2 * n; e++)
+		if (k.to[e] < 0 && !done[e / 2])
+			strand_add(t, &k, done, (int)e, false, strands, pieces);
+	for (size_t a = 0; a < n; a++)
+		if (!done[a])
+			strand_add(t, &k, done, (int)(2 * a), true, strands, pieces);
+	if (!strands->failed && !pieces->failed)
+		st = ST_OK;
+out:
+	free(k.to);
+	free(k.end);
+	free(done);
+	return st;
+}
+
+static enum status patch_write(struct tracer *t, struct text *out)
+{
+	struct list strands = { 0 }, pieces = { 0 };
+	enum status st = strands_make(t, &strands, &pieces);
+	if (st == ST_OK && (strands.n || t->undecided.n)) {
+		struct patch_header h = { .magic = PATCH_MAGIC,
+			                  .patch = t->patch,
+			                  .n_strands = (int)strands.n,
+			                  .n_pieces = (int)pieces.n,
+			                  .n_undecided = (int)t->undecided.n };
+		text_add_bytes(out, &h, sizeof h);
+		text_add_bytes(out, strands.p, strands.n * sizeof(struct strand));
+		text_add_bytes(out, pieces.p, pieces.n * sizeof(struct piece));
+		text_add_bytes(out, t->undecided.p, t->undecided.n * sizeof(struct undecided));
+	}
+	free(strands.p);
+	free(pieces.p);
+	return out->failed ? ST_RESOURCE : st;
+}
+
+enum status level_patch(const struct level *l, size_t patch, struct text *out)
+{
+	const struct level_surface *s = l->surface;
+	struct tracer t = { .level = l, .patch = (int)patch };
+	enum status st = ST_RESOURCE;
+	t.place[0] = t.patch / s->net.spans[1];
+	t.place[1] = t.patch % s->net.spans[1];
+	t.points = bezier_patch(&s->net, t.place[0], t.place[1]);
+	t.n_field = (size_t)(l->degree[0] + 1) * (l->degree[1] + 1);
+	if (s->kind != LEVEL_PLANE) {
+		t.normals = s->normals + level_normals_size(s) * patch;
+		if (l->value != 0)
+			t.n_side = level_normals_size(s) / 4;
+	}
+	t.n_scratch = 2 * CELL_DEPTH_MAX + 2;
+	t.scratch = calloc(t.n_scratch, sizeof *t.scratch);
+	double *work = calloc(2 * t.n_field + 2 * t.n_side, sizeof *work);
+	if (!t.scratch || !work)
+		goto out;
+	t.field = work;
+	t.product = work + t.n_field;
+	double *c = t.product + t.n_side;
+	if (level_field_make(&t, c))
+		level_search(&t, c);
+	if (t.failed || t.arcs.failed || t.pieces.failed || t.ends.failed || t.undecided.failed)
+		goto out;
+	st = patch_write(&t, out);
+out:
+	for (int i = 0; t.scratch && i < t.n_scratch; i++)
+		free(t.scratch[i]);
+	free(t.scratch);
+	free(work);
+	free(t.arcs.p);
+	free(t.pieces.p);
+	free(t.ends.p);
+	free(t.undecided.p);
+	return st;
+}

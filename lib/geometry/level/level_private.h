@@ -1,0 +1,213 @@
+/* level_private.h - what the files of the tracer share.
+ *
+ * Words: a cell is a box in a patch, made by halving; an arc the part of a curve in one certified
+ * cell; a piece one cubic of it; a strand all arcs of a patch that hang together; a branch all
+ * strands of the surface that do. u and v in a patch run over [0, 1].
+ */
+#ifndef BATTEN_LEVEL_PRIVATE_H
+#define BATTEN_LEVEL_PRIVATE_H
+
+#include <stdbool.h>
+
+#include "level.h"
+
+enum {
+	NORMAL_DEGREE_MAX = 3 * (ORDER_MAX - 1) - 1,
+	FIELD_DEGREE_MAX = 2 * NORMAL_DEGREE_MAX,
+	CELL_DEPTH_MAX = 22, /* smallest cell: 2^-22 of a patch */
+	LINE_BITS = 24,      /* a line in a patch is a multiple of 2^-24 */
+};
+
+/* Normals that differ by less over a knot line make no crease: 0.06 degrees, what CAD systems call
+ * tangent. */
+#define SMOOTH_ANGLE 1e-3
+
+/* Coefficients below this share of the field's terms are rounding. */
+#define ZERO_SHARE 1e-12
+
+/* What lies between two patches, or between a patch and nothing. */
+enum edge_kind {
+	EDGE_BORDER, /* the surface ends */
+	EDGE_SHARED, /* both sides have the same coefficients there, to the bit */
+	EDGE_SMOOTH, /* same normals, other coefficients (geometric continuity, rounded data) */
+	EDGE_CREASE, /* normals differ, or a gap */
+	EDGE_POLE,   /* the surface ends in one point */
+};
+
+/* What does not depend on the value: net, normals, edges. */
+struct level_surface {
+	struct bezier_net net;
+	enum level_kind kind;
+	double frame[3][3]; /* rows: right-handed, the last along the direction */
+	int degree[2];      /* of the normals' components */
+	double *normals;    /* owned; a patch (degree + 1)^2 x 4, in `frame`, the fourth 0 */
+	unsigned char
+	        *edges[2]; /* owned; edges[0]: (spans[0] + 1) x spans[1], lines u = breaks[0][i];
+	                            edges[1]: spans[0] x (spans[1] + 1), lines v = breaks[1][j] */
+	double *binomial;  /* owned; triangle of rows, see binomial_row */
+};
+
+struct level {
+	struct level_surface *surface;
+	bool owner;          /* of surface; else it belongs to the level this one is like */
+	double direction[4]; /* unit; plane: n and -d */
+	double value, sine;  /* cosine and sine of the angle */
+	int degree[2];       /* of f */
+	double tolerance;
+};
+
+size_t level_edge(const struct level_surface *s, int d, int i, int j);
+
+static inline size_t level_normals_size(const struct level_surface *s)
+{
+	return (size_t)4 * (s->degree[0] + 1) * (s->degree[1] + 1);
+}
+
+/* C(n, 0 .. n) */
+static inline const double *binomial_row(const double *triangle, int n)
+{
+	return triangle + (size_t)n * (n + 1) / 2;
+}
+
+/* level_normal.c */
+enum status level_normals(struct level_surface *s);
+void level_edges(struct level_surface *s);
+
+/* level_roots.c: polynomials in one variable, Bernstein coefficients c[0 .. n]; zero counts as
+ * positive. */
+bool root_single(const double *c, int n, double *t); /* one sign change: its place */
+int roots_find(const double *c, int n, double *t);   /* all, rising; t holds n + 2 */
+
+/* A list that grows; a failed one stays failed and holds what it had. */
+struct list {
+	void *p;
+	size_t n, cap;
+	bool failed;
+};
+void *list_add(struct list *l, size_t size); /* zeroed room for one more, or NULL */
+
+/* One cubic in u,v and in space over t in [0, 1]: ends and tangents. */
+struct piece {
+	double uv[2][2], duv[2][2]; /* [end][u or v], in the patch */
+	double p[2][3], dp[2][3];
+	double error; /* largest distance found */
+};
+
+struct arc {
+	int first, n;
+};
+
+/* Where an arc touches the border of its cell. */
+struct arc_end {
+	int line;               /* of the patch, in 2^-LINE_BITS */
+	int arc, end;           /* which, and which of its two ends */
+	unsigned char d, upper; /* line u = const (0) or v = const (1); cell above the line */
+	double at;              /* the other parameter */
+};
+
+struct cell {
+	int level[2];      /* size 2^-level */
+	unsigned index[2]; /* lower corner index x size */
+};
+
+struct undecided {
+	int level[2], index[2], flat;
+};
+
+/* Work on one patch. */
+struct tracer {
+	const struct level *level;
+	int patch, place[2];
+	const double *points, *normals;
+	double *field;          /* coefficients of f, as searched at first */
+	size_t n_field, n_side; /* coefficients of f, and of the side condition behind them */
+	bool own_field;         /* f is evaluated from `field` (a factor was taken out) */
+	double scale;           /* size of the terms that f is a sum of */
+	struct list arcs, pieces, ends, undecided;
+	double **scratch; /* cells on the way down, one array a depth */
+	int n_scratch;
+	double *product; /* room for scaled factors of a product */
+	bool failed;     /* memory ran out */
+};
+
+/* level_field.c: false where the patch holds no curve. `out`: f, then the side condition. */
+bool level_field_make(struct tracer *t, double *out);
+
+struct field_point {
+	double f, fu, fv;
+	double p[3], su[3], sv[3];
+};
+void level_field_at(const struct tracer *t, double u, double v, struct field_point *out);
+
+/* level_cell.c */
+void level_search(struct tracer *t, double *c);
+
+/* level_arc.c */
+struct cell_range {
+	double lo[2], hi[2];
+};
+void level_arc_follow(struct tracer *t, const struct cell_range *box, int along, bool rising,
+                      const double ends[2][2]);
+
+/* Ends of a strand on the border of its patch, or loose inside. */
+enum strand_end_kind { STRAND_BORDER, STRAND_LOOSE, STRAND_CLOSED };
+struct strand_end {
+	int kind;
+	int d, upper; /* side of the patch: d = 0: u = 0 or 1 */
+	int unused;
+	double at;
+};
+struct strand {
+	int first, n; /* pieces */
+	struct strand_end end[2];
+};
+
+/* level_patch.c: what a patch's bytes begin with; strands, pieces, undecided follow. */
+struct patch_header {
+	char magic[8];
+	int patch, n_strands, n_pieces, n_undecided;
+};
+#define PATCH_MAGIC "level 1"
+
+enum link_kind { LINK_NONE, LINK_STRAND, LINK_END };
+
+/* Where a strand's end leads. An end is 2 strand + 0 or 1. */
+struct link {
+	enum link_kind kind;
+	size_t other; /* the end it meets */
+	bool cut;     /* u or v jumps there: a seam or a pole */
+	bool on_edge; /* both lie on one edge: a gap between them is bridged along it */
+};
+
+/* All patches' strands in one array. */
+struct joint {
+	const struct level *level;
+	struct strand *strands; /* owned; `first` counts in `pieces` */
+	int *patch;             /* owned; of each strand */
+	struct piece *pieces;   /* owned */
+	size_t n_strands, n_pieces;
+	struct link *links; /* owned, 2 a strand */
+	struct list boxes;  /* struct level_box, undecided */
+};
+
+/* A strand's end: place in space, unit tangent out of the strand, surface parameters. */
+struct joint_end {
+	double p[3], tangent[3], uv[2];
+};
+void joint_end_get(const struct joint *j, size_t end, struct joint_end *out);
+void piece_reverse(struct piece *p);
+
+/* Parameters of the surface from those of the patch. */
+void level_globalise(const struct level_surface *s, int patch, const double uv[2], double out[2]);
+
+/* level_link.c: fill joint->links; ends that meet nothing leave a box. Errors: ST_RESOURCE. */
+enum status level_link(struct joint *j);
+
+/* level_branch.c: one branch from the ends by which its strands are entered. Errors: ST_RESOURCE. */
+enum status level_branch_make(const struct joint *j, const size_t *entries, size_t n, bool closed,
+                              struct level_branch *out);
+
+/* level_region.c: boxes that touch become one. Errors: ST_RESOURCE. */
+enum status level_regions(const struct level *l, struct list *boxes, struct level_result *out);
+
+#endif
