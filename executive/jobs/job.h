@@ -1,0 +1,99 @@
+/* job.h - a job inside the queue. Private to the files of the queue. */
+#ifndef BATTEN_JOB_H
+#define BATTEN_JOB_H
+
+#include "queue.h"
+
+/* Why a job is being ended by us. */
+enum job_cause { CAUSE_NONE, CAUSE_KILL, CAUSE_FAULT, CAUSE_LEAVE };
+
+/* How far the ending of a worker has gone. */
+enum ending { STEP_BEGIN, STEP_CANCEL, STEP_TERMINATE, STEP_KILL };
+
+/* So many at once, then so many a second. */
+struct bucket {
+	double level, at;
+};
+
+struct job {
+	struct queue *q;         /* borrowed: outlives every job */
+	struct Stats stats;      /* state: changed only by job_enter() */
+	struct job *prev, *next; /* in the line, while queued */
+	bool in_line;
+	bool front; /* first in line */
+	bool forgotten;
+	int unsettled; /* jobs it waits for */
+
+	/* this run */
+	bool process;           /* it has one, or its pipe is open */
+	bool exited, drained;   /* both true: the job has ended */
+	bool greeted, finished; /* HELLO came, DONE came */
+	bool stopping;          /* SIGSTOP sent, not seen yet */
+	struct launcher_exit exit;
+	enum job_cause cause;
+	enum ending step;
+	char *fault;       /* owned; what went wrong, in words */
+	enum status error; /* class of its ERROR packet, ST_OK: none */
+	double deadline;   /* of the clock; INFINITY: none */
+	double began, stopped_at, stopped_s;
+	double pace_at; /* running seconds at the first PROGRESS of the phase, NaN: none */
+	int64_t pace_done;
+	struct bucket packets, notes;
+
+	/* telling */
+	bool dirty; /* to be written into the ledger, then told */
+	bool news;  /* progress: told when told_at allows */
+	double told_at;
+};
+
+struct queue {
+	struct queue_ports ports; /* borrowed */
+	struct queue_limits limits;
+	struct job **jobs; /* owned; by rising id */
+	int n, cap;
+	int64_t last;             /* highest id ever given */
+	struct job *first, *tail; /* the line */
+	struct job **active;      /* owned array of borrowed: jobs with a process */
+	int n_active, active_cap;
+	int count[N_JOB_STATES];
+	int threads;          /* of jobs that run */
+	int64_t memory_mib;   /* of jobs with a process */
+	struct job **changed; /* owned array of borrowed */
+	int n_changed, changed_cap;
+	const struct job *blocked; /* first in line that finds no threads or memory */
+	bool leaving, unsettled;
+	char *fault; /* owned; why the ledger takes nothing */
+	double retry_at;
+};
+
+double queue_now(const struct queue *q);
+struct job *queue_job(const struct queue *q, int64_t id);
+
+/* state.c */
+/* Let it happen; ST_INPUT where the table has no such cell. */
+enum status job_step(struct job *job, enum job_event event, const char *by);
+void job_enter(struct job *job, enum job_state state);
+/* Set a reason; NULL clears. Text is copied. */
+void job_reason(struct job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void job_fault(struct job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void job_changed(struct job *job, bool urgent);
+
+/* ending.c */
+void job_end(struct job *job, enum job_cause cause, enum ending step);
+void job_escalate(struct job *job);
+void job_gone(struct job *job); /* its final state, or queued again */
+
+/* packets.c */
+void job_packet(struct job *job, const struct message *m);
+double job_running_s(const struct job *job); /* seconds of this run, suspended ones left out */
+void job_times(struct job *job);             /* wall_s, suspended_s, eta_s as of now */
+
+/* line.c */
+void line_add(struct job *job);
+void line_remove(struct job *job);
+void line_start(struct queue *q);  /* start what may start */
+void line_settle(struct queue *q); /* look at the jobs that wait for others */
+int line_unsettled(const struct job *job);
+void line_reason(struct job *job); /* why it waits */
+
+#endif

@@ -1,0 +1,220 @@
+/* ledger.c - the jobs in an SQLite file, in WAL mode. */
+#include "ledger.h"
+
+#include <sqlite3.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "json.h"
+#include "text.h"
+
+enum { LEDGER_VERSION = 1 };
+
+struct book {
+	sqlite3 *db;
+	sqlite3_stmt *put, *drop, *begin, *commit, *rollback;
+	char *path;
+	bool full; /* synchronous=FULL is set */
+};
+
+static enum status book_error(const struct book *b, const char *what, const struct report *r)
+{
+	return report_error(r, ST_RESOURCE, "cannot %s the ledger '%s': %s", what, b->path,
+	                    b->db ? sqlite3_errmsg(b->db) : "out of memory");
+}
+
+static bool book_step(sqlite3_stmt *s)
+{
+	int code = sqlite3_step(s);
+	sqlite3_reset(s);
+	return code == SQLITE_DONE || code == SQLITE_ROW;
+}
+
+static bool change_write(struct book *b, const struct ledger_change *c, struct text *record)
+{
+	sqlite3_stmt *s = c->stats ? b->put : b->drop;
+	sqlite3_bind_int64(s, 1, c->id);
+	if (c->stats) {
+		text_reset(record);
+		stats_write(record, c->stats);
+		if (record->failed)
+			return false;
+		sqlite3_bind_int(s, 2, c->front);
+		sqlite3_bind_int(s, 3, c->killed);
+		sqlite3_bind_text(s, 4, job_state_table[c->stats->state].word, -1, SQLITE_STATIC);
+		sqlite3_bind_text64(s, 5, record->s, record->n, SQLITE_STATIC, SQLITE_UTF8);
+	}
+	return book_step(s);
+}
+
+/* FULL waits for the disk at each commit, NORMAL leaves that to the next checkpoint. */
+static void book_durable(struct book *b, bool full)
+{
+	if (b->full == full)
+		return;
+	b->full = full;
+	sqlite3_exec(b->db, full ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=NORMAL", NULL,
+	             NULL, NULL);
+}
+
+static enum status book_write(void *data, const struct ledger_change *changes, size_t n,
+                              bool durable, const struct report *r)
+{
+	struct book *b = data;
+	struct text record = { 0 };
+	book_durable(b, durable);
+	bool good = book_step(b->begin);
+	for (size_t i = 0; i < n && good; i++)
+		good = change_write(b, &changes[i], &record);
+	enum status st = ST_OK;
+	if (!good || !book_step(b->commit)) {
+		st = book_error(b, "write", r);
+		if (!sqlite3_get_autocommit(b->db))
+			book_step(b->rollback);
+	}
+	text_finish(&record);
+	return st;
+}
+
+static enum status row_load(struct book *b, sqlite3_stmt *s, ledger_job *each, void *each_data,
+                            const struct report *r)
+{
+	const char *text = (const char *)sqlite3_column_text(s, 3);
+	json_t *o = text ? json_loadb(text, (size_t)sqlite3_column_bytes(s, 3), 0, NULL) : NULL;
+	struct Stats stats;
+	enum status st = o ? stats_from_json(&stats, o) : ST_INPUT;
+	json_decref(o);
+	if (st == ST_OK) {
+		stats.id = sqlite3_column_int64(s, 0);
+		st = each(each_data, &stats, sqlite3_column_int(s, 1), sqlite3_column_int(s, 2));
+	}
+	if (st != ST_OK)
+		report_error(r, st, "cannot read job %lld in the ledger '%s': %s",
+		             (long long)sqlite3_column_int64(s, 0), b->path, status_text(st));
+	return st;
+}
+
+static enum status book_load(void *data, ledger_job *each, void *each_data, int64_t *last,
+                             const struct report *r)
+{
+	struct book *b = data;
+	sqlite3_stmt *s;
+	enum status st = ST_OK;
+	int code = SQLITE_DONE;
+	*last = 0;
+	if (sqlite3_prepare_v2(b->db, "SELECT seq FROM sqlite_sequence WHERE name='jobs'", -1, &s,
+	                       NULL) != SQLITE_OK)
+		return book_error(b, "read", r);
+	if (sqlite3_step(s) == SQLITE_ROW)
+		*last = sqlite3_column_int64(s, 0);
+	sqlite3_finalize(s);
+	if (sqlite3_prepare_v2(b->db, "SELECT id, front, killed, record FROM jobs ORDER BY id", -1,
+	                       &s, NULL) != SQLITE_OK)
+		return book_error(b, "read", r);
+	while (st == ST_OK && (code = sqlite3_step(s)) == SQLITE_ROW)
+		st = row_load(b, s, each, each_data, r);
+	if (st == ST_OK && code != SQLITE_DONE)
+		st = book_error(b, "read", r);
+	sqlite3_finalize(s);
+	return st;
+}
+
+static enum status book_version(struct book *b, int *version, const struct report *r)
+{
+	sqlite3_stmt *s;
+	if (sqlite3_prepare_v2(b->db, "PRAGMA user_version", -1, &s, NULL) != SQLITE_OK)
+		return book_error(b, "open", r);
+	int code = sqlite3_step(s);
+	*version = sqlite3_column_int(s, 0);
+	sqlite3_finalize(s);
+	if (code != SQLITE_ROW)
+		return book_error(b, "open", r);
+	if (*version > LEDGER_VERSION)
+		return report_error(
+		        r, ST_INPUT,
+		        "the ledger '%s' was written by a later batten (version %d, this "
+		        "one knows %d); use that one",
+		        b->path, *version, LEDGER_VERSION);
+	return ST_OK;
+}
+
+/* Only the service opens the ledger, so its index may stay in memory. */
+static const char settings[] = "PRAGMA locking_mode=EXCLUSIVE;"
+                               "PRAGMA journal_mode=WAL;"
+                               "PRAGMA synchronous=NORMAL;"
+                               "PRAGMA busy_timeout=2000;";
+static const char tables[] = "BEGIN;"
+                             "CREATE TABLE IF NOT EXISTS jobs(id INTEGER PRIMARY KEY AUTOINCREMENT,"
+                             " front INTEGER NOT NULL, killed INTEGER NOT NULL,"
+                             " state TEXT NOT NULL, record TEXT NOT NULL);"
+                             "PRAGMA user_version=1;"
+                             "COMMIT;";
+
+static bool book_prepare(struct book *b)
+{
+	const struct {
+		sqlite3_stmt **s;
+		const char *sql;
+	} statements[] = {
+		{ &b->put,
+		  "INSERT INTO jobs(id, front, killed, state, record) VALUES(?,?,?,?,?)"
+		  " ON CONFLICT(id) DO UPDATE SET front=excluded.front,"
+		  " killed=excluded.killed, state=excluded.state, record=excluded.record" },
+		{ &b->drop, "DELETE FROM jobs WHERE id=?" },
+		{ &b->begin, "BEGIN IMMEDIATE" },
+		{ &b->commit, "COMMIT" },
+		{ &b->rollback, "ROLLBACK" },
+	};
+	for (size_t i = 0; i < sizeof statements / sizeof *statements; i++)
+		if (sqlite3_prepare_v3(b->db, statements[i].sql, -1, SQLITE_PREPARE_PERSISTENT,
+		                       statements[i].s, NULL) != SQLITE_OK)
+			return false;
+	return true;
+}
+
+static void book_close(struct book *b)
+{
+	sqlite3_finalize(b->put);
+	sqlite3_finalize(b->drop);
+	sqlite3_finalize(b->begin);
+	sqlite3_finalize(b->commit);
+	sqlite3_finalize(b->rollback);
+	sqlite3_close(b->db);
+	free(b->path);
+	free(b);
+}
+
+enum status ledger_open(struct ledger *out, const char *path, const struct report *r)
+{
+	int version = 0;
+	enum status st = ST_OK;
+	memset(out, 0, sizeof *out);
+	struct book *b = calloc(1, sizeof *b);
+	if (!b || !(b->path = strdup(path))) {
+		free(b);
+		return report_error(r, ST_RESOURCE, "cannot open the ledger: out of memory");
+	}
+	if (sqlite3_open(path, &b->db) != SQLITE_OK ||
+	    sqlite3_exec(b->db, settings, NULL, NULL, NULL) != SQLITE_OK)
+		st = book_error(b, "open", r);
+	if (st == ST_OK)
+		st = book_version(b, &version, r);
+	if (st == ST_OK && version < LEDGER_VERSION &&
+	    sqlite3_exec(b->db, tables, NULL, NULL, NULL) != SQLITE_OK)
+		st = book_error(b, "open", r);
+	if (st == ST_OK && !book_prepare(b))
+		st = book_error(b, "open", r);
+	if (st != ST_OK) {
+		book_close(b);
+		return st;
+	}
+	*out = (struct ledger){ .data = b, .write = book_write, .load = book_load };
+	return ST_OK;
+}
+
+void ledger_close(struct ledger *l)
+{
+	if (l->data)
+		book_close(l->data);
+	memset(l, 0, sizeof *l);
+}

@@ -1,0 +1,32 @@
+/* ledger.h - where the jobs are written down. */
+#ifndef BATTEN_LEDGER_H
+#define BATTEN_LEDGER_H
+
+#include "stats.h"
+
+struct ledger_change {
+	int64_t id;
+	const struct Stats *stats; /* borrowed; NULL: take the record out */
+	bool front;                /* first in line */
+	bool killed;               /* its worker is being ended because somebody said so */
+};
+
+typedef enum status ledger_job(void *data, struct Stats *s, bool front,
+                               bool killed); /* takes s over */
+
+struct ledger {
+	void *data;
+	/* All of them or none. durable: also after the machine lost its power.
+	 * Errors: ST_RESOURCE. */
+	enum status (*write)(void *data, const struct ledger_change *changes, size_t n,
+	                     bool durable, const struct report *r);
+	/* Every record by rising id; *last is the highest id ever given. */
+	enum status (*load)(void *data, ledger_job *each, void *each_data, int64_t *last,
+	                    const struct report *r);
+};
+
+/* SQLite in WAL mode. Errors: ST_RESOURCE, ST_INPUT (written by a later batten). */
+enum status ledger_open(struct ledger *out, const char *path, const struct report *r);
+void ledger_close(struct ledger *l); /* zeroed is fine */
+
+#endif

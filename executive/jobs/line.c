@@ -1,0 +1,222 @@
+/* line.c - the line of queued jobs: its order, who may start, why the others wait. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "job.h"
+
+/* Those put first, then by priority, then by age. */
+static bool before(const struct job *a, const struct job *b)
+{
+	if (a->front != b->front)
+		return a->front;
+	if (a->stats.priority != b->stats.priority)
+		return a->stats.priority > b->stats.priority;
+	return a->stats.id < b->stats.id;
+}
+
+/* From the end: a new job mostly belongs there. */
+void line_add(struct job *job)
+{
+	struct queue *q = job->q;
+	struct job *after = q->tail;
+	while (after && before(job, after))
+		after = after->prev;
+	job->prev = after;
+	job->next = after ? after->next : q->first;
+	if (job->next)
+		job->next->prev = job;
+	else
+		q->tail = job;
+	if (after)
+		after->next = job;
+	else
+		q->first = job;
+	job->in_line = true;
+}
+
+void line_remove(struct job *job)
+{
+	struct queue *q = job->q;
+	if (job->prev)
+		job->prev->next = job->next;
+	else
+		q->first = job->next;
+	if (job->next)
+		job->next->prev = job->prev;
+	else
+		q->tail = job->prev;
+	job->prev = job->next = NULL;
+	job->in_line = false;
+}
+
+static bool threads_free(const struct queue *q, const struct job *job)
+{
+	return !queue_active(q) || q->threads + job->stats.threads <= q->limits.threads;
+}
+
+static bool memory_free(const struct queue *q, const struct job *job)
+{
+	int64_t used = q->memory_mib, wants = job->stats.memory_mib, limit = q->limits.memory_mib;
+	return !limit || !wants || !used || used + wants <= limit;
+}
+
+static bool active_room(struct queue *q)
+{
+	if (q->n_active < q->active_cap)
+		return true;
+	int cap = q->active_cap ? 2 * q->active_cap : 16;
+	struct job **p = realloc(q->active, (size_t)cap * sizeof *p);
+	if (!p)
+		return false;
+	q->active = p;
+	q->active_cap = cap;
+	return true;
+}
+
+static void run_reset(struct job *job)
+{
+	struct Stats *s = &job->stats;
+	job->process = true;
+	job->exited = job->drained = job->greeted = job->finished = job->stopping = false;
+	job->exit = (struct launcher_exit){ .cpu_s = NAN, .peak_kib = -1 };
+	job->cause = CAUSE_NONE;
+	job->step = STEP_BEGIN;
+	job->error = ST_OK;
+	job->began = queue_now(job->q);
+	job->stopped_s = job->stopped_at = 0;
+	job->pace_at = NAN;
+	job->packets = job->notes = (struct bucket){ 0 };
+	stats_drop_outputs(s);
+	s->done = s->total = 0;
+	free(s->phase);
+	s->phase = NULL;
+	s->started = job->q->ports.clock->date(job->q->ports.clock->data);
+	s->cpu_s = NAN;
+	s->peak_kib = -1;
+}
+
+static void start(struct job *job)
+{
+	struct queue *q = job->q;
+	const struct launcher *l = q->ports.launcher;
+	struct report_store store;
+	report_store_init(&store);
+	job_step(job, EV_LAUNCH, NULL);
+	enum status st =
+	        active_room(q) ? l->start(l->data, &job->stats, &store.report) : ST_RESOURCE;
+	if (st != ST_OK) {
+		job->deadline = INFINITY;
+		job_fault(job, "%s", store.error[0] ? store.error : status_text(st));
+		job_step(job, EV_REFUSE, NULL);
+		free(job->fault);
+		job->fault = NULL;
+		return;
+	}
+	run_reset(job);
+	q->active[q->n_active++] = job;
+	q->memory_mib += job->stats.memory_mib;
+}
+
+/* In order: a job that finds no room is not overtaken, or a wide one would wait for ever. */
+void line_start(struct queue *q)
+{
+	q->blocked = NULL;
+	if (q->leaving || q->fault)
+		return;
+	for (struct job *job = q->first, *next; job; job = next) {
+		next = job->next;
+		if (job->unsettled)
+			continue;
+		if (queue_active(q) >= q->limits.jobs)
+			return;
+		if (!threads_free(q, job) || !memory_free(q, job)) {
+			q->blocked = job;
+			return;
+		}
+		start(job);
+	}
+}
+
+int line_unsettled(const struct job *job)
+{
+	int n = 0;
+	for (int i = 0; i < job->stats.n_after; i++) {
+		const struct job *other = queue_job(job->q, job->stats.after[i]);
+		n += other && other->stats.state != JOB_DONE;
+	}
+	return n;
+}
+
+/* Jobs wait only for earlier ones, so one pass settles whole chains. */
+void line_settle(struct queue *q)
+{
+	if (!q->unsettled)
+		return;
+	q->unsettled = false;
+	for (int i = 0; i < q->n; i++) {
+		struct job *job = q->jobs[i];
+		if (!job->unsettled || !job_can(job->stats.state, EV_REFUSE) || job->process)
+			continue;
+		int unsettled = line_unsettled(job);
+		if (unsettled != job->unsettled)
+			job_changed(job, true);
+		job->unsettled = unsettled;
+		for (int k = 0; k < job->stats.n_after; k++) {
+			const struct job *other = queue_job(q, job->stats.after[k]);
+			enum job_state state = other ? other->stats.state : JOB_DONE;
+			if (!job_state_table[state].over || state == JOB_DONE || job->fault)
+				continue;
+			job_fault(job,
+			          "not run: job %lld, which it waits for, is %s; retry that one "
+			          "first",
+			          (long long)other->stats.id, job_state_table[state].word);
+			job_step(job, EV_REFUSE, NULL);
+		}
+		free(job->fault);
+		job->fault = NULL;
+	}
+	/* a chain's later members were settled in this pass: nothing is left to do */
+	q->unsettled = false;
+}
+
+static void reason_after(struct job *job)
+{
+	char list[128] = "";
+	int n = 0, shown = 0;
+	for (int i = 0; i < job->stats.n_after && n < (int)sizeof list - 24; i++) {
+		const struct job *other = queue_job(job->q, job->stats.after[i]);
+		if (!other || other->stats.state == JOB_DONE)
+			continue;
+		n += snprintf(list + n, sizeof list - (size_t)n, "%s%lld", shown++ ? ", " : "",
+		              (long long)other->stats.id);
+	}
+	job_reason(job, "after %s%s", list, shown < job->unsettled ? ", ..." : "");
+}
+
+void line_reason(struct job *job)
+{
+	const struct queue *q = job->q;
+	if (job->stats.state != JOB_QUEUED)
+		return;
+	if (q->leaving)
+		job_reason(job, "the service ends; it runs after the next start");
+	else if (q->fault)
+		job_reason(job, "the ledger takes nothing: %s", q->fault);
+	else if (job->unsettled)
+		reason_after(job);
+	else if (queue_active(q) >= q->limits.jobs)
+		job_reason(job, "slots full");
+	else if (!threads_free(q, job))
+		job_reason(job, "threads: %d of %d in use, it wants %d", q->threads,
+		           q->limits.threads, job->stats.threads);
+	else if (!memory_free(q, job))
+		job_reason(job, "memory: %lld of %lld MiB in use, it wants %lld",
+		           (long long)q->memory_mib, (long long)q->limits.memory_mib,
+		           (long long)job->stats.memory_mib);
+	else if (q->blocked)
+		job_reason(job, "behind job %lld", (long long)q->blocked->stats.id);
+	else
+		job_reason(job, NULL);
+}

@@ -1,0 +1,83 @@
+/* process.c - start one process behind the stub. */
+#include "process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/pidfd.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+static int stub_start(const struct spawn *s, int in, int out, pid_t *pid)
+{
+	char parent[24], niceness[12], memory[24];
+	char *argv[] = { (char *)s->stub, parent, niceness, memory, (char *)s->worker, NULL };
+	snprintf(parent, sizeof parent, "%ld", (long)getpid());
+	snprintf(niceness, sizeof niceness, "%d", s->niceness);
+	snprintf(memory, sizeof memory, "%llu", (unsigned long long)s->memory_bytes);
+
+	posix_spawn_file_actions_t actions;
+	posix_spawnattr_t attributes;
+	sigset_t none, all;
+	posix_spawn_file_actions_init(&actions);
+	posix_spawnattr_init(&attributes);
+	sigemptyset(&none);
+	sigfillset(&all);
+	posix_spawnattr_setsigmask(&attributes, &none);
+	posix_spawnattr_setsigdefault(&attributes, &all);
+	posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK |
+	                                              POSIX_SPAWN_SETSIGDEF);
+	posix_spawn_file_actions_adddup2(&actions, in, 0);
+	posix_spawn_file_actions_adddup2(&actions, out, 1);
+	posix_spawn_file_actions_adddup2(&actions, s->log, 2);
+	int error = posix_spawn(pid, s->stub, &actions, &attributes, argv, environ);
+	posix_spawn_file_actions_destroy(&actions);
+	posix_spawnattr_destroy(&attributes);
+	return error;
+}
+
+enum status spawn_worker(const struct spawn *s, pid_t *pid, int *in, int *out, int *pidfd,
+                         const struct report *r)
+{
+	int to[2], from[2], error;
+	if (pipe2(to, O_CLOEXEC)) {
+		error = errno;
+		goto fail;
+	}
+	if (pipe2(from, O_CLOEXEC)) {
+		error = errno;
+		goto fail_to;
+	}
+	error = stub_start(s, to[0], from[1], pid);
+	if (error)
+		goto fail_from;
+	*pidfd = pidfd_open(*pid, 0);
+	if (*pidfd < 0) {
+		error = errno;
+		kill(-*pid, SIGKILL);
+		waitpid(*pid, NULL, 0);
+		goto fail_from;
+	}
+	fcntl(*pidfd, F_SETFD, FD_CLOEXEC);
+	fcntl(to[1], F_SETFL, O_NONBLOCK);
+	fcntl(from[0], F_SETFL, O_NONBLOCK);
+	close(to[0]);
+	close(from[1]);
+	*in = to[1];
+	*out = from[0];
+	return ST_OK;
+fail_from:
+	close(from[0]);
+	close(from[1]);
+fail_to:
+	close(to[0]);
+	close(to[1]);
+fail:
+	return report_error(r, ST_RESOURCE, "cannot start worker '%s': %s", s->worker,
+	                    strerror(error));
+}

@@ -1,0 +1,22 @@
+/* process.h - start one process behind the stub. */
+#ifndef BATTEN_PROCESS_H
+#define BATTEN_PROCESS_H
+
+#include <stdint.h>
+#include <sys/types.h>
+
+#include "report.h"
+
+struct spawn {
+	const char *stub, *worker;
+	int log; /* becomes standard error */
+	int niceness;
+	uint64_t memory_bytes; /* 0: no limit */
+};
+
+/* A process in its own group. in, out: our ends of its standard input and output, not blocking;
+ * pidfd becomes readable when it ends. Errors: ST_RESOURCE. */
+enum status spawn_worker(const struct spawn *s, pid_t *pid, int *in, int *out, int *pidfd,
+                         const struct report *r);
+
+#endif

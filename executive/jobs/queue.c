@@ -1,0 +1,335 @@
+/* queue.c - the jobs: submitted, looked up, moved on, written down, told. */
+#include "queue.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "job.h"
+
+enum status queue_create(struct queue **out, const struct queue_ports *ports,
+                         const struct queue_limits *limits)
+{
+	struct queue *q = calloc(1, sizeof *q);
+	if (!q)
+		return ST_RESOURCE;
+	q->ports = *ports;
+	q->limits = *limits;
+	q->retry_at = INFINITY;
+	*out = q;
+	return ST_OK;
+}
+
+static void job_destroy(struct job *job)
+{
+	if (!job)
+		return;
+	stats_finish(&job->stats);
+	free(job->fault);
+	free(job);
+}
+
+void queue_destroy(struct queue *q)
+{
+	if (!q)
+		return;
+	for (int i = 0; i < q->n; i++)
+		job_destroy(q->jobs[i]);
+	free(q->jobs);
+	free(q->active);
+	free(q->changed);
+	free(q->fault);
+	free(q);
+}
+
+double queue_now(const struct queue *q)
+{
+	return q->ports.clock->elapsed(q->ports.clock->data);
+}
+
+/* Index of the first job whose id is not below id. */
+static int queue_index(const struct queue *q, int64_t id)
+{
+	int low = 0, high = q->n;
+	while (low < high) {
+		int middle = low + (high - low) / 2;
+		if (q->jobs[middle]->stats.id < id)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	return low;
+}
+
+struct job *queue_job(const struct queue *q, int64_t id)
+{
+	int i = queue_index(q, id);
+	return i < q->n && q->jobs[i]->stats.id == id ? q->jobs[i] : NULL;
+}
+
+static bool grow(void *array, int *cap, int need, size_t size)
+{
+	void **p = array;
+	if (need <= *cap)
+		return true;
+	int more = *cap * 2 > need ? *cap * 2 : need + 16;
+	void *fresh = realloc(*p, (size_t)more * size);
+	if (!fresh)
+		return false;
+	*p = fresh;
+	*cap = more;
+	return true;
+}
+
+/* Room in `changed` is made with the job, so that a change cannot fail. */
+static struct job *job_create(struct queue *q)
+{
+	if (!grow(&q->jobs, &q->cap, q->n + 1, sizeof(struct job *)) ||
+	    !grow(&q->changed, &q->changed_cap, q->n + 1, sizeof(struct job *)))
+		return NULL;
+	struct job *job = calloc(1, sizeof *job);
+	if (job) {
+		job->q = q;
+		job->deadline = INFINITY;
+		job->pace_at = NAN;
+		job->told_at = -INFINITY;
+	}
+	return job;
+}
+
+void job_changed(struct job *job, bool urgent)
+{
+	struct queue *q = job->q;
+	if (!job->dirty && !job->news)
+		q->changed[q->n_changed++] = job;
+	if (urgent)
+		job->dirty = true;
+	else
+		job->news = true;
+}
+
+/* Fields that a client gives; the rest is the queue's own. */
+static enum status job_submitted(struct job *job, const struct Stats *given, int64_t first, int i,
+                                 const struct report *r)
+{
+	struct queue *q = job->q;
+	struct Stats *s = &job->stats;
+	enum status st = stats_copy(s, given);
+	if (st != ST_OK)
+		return report_error(r, st, "cannot submit: out of memory");
+	stats_drop_outputs(s);
+	s->id = first + i;
+	s->state = JOB_QUEUED;
+	s->done = s->total = s->pid = 0;
+	s->started = s->ended = 0;
+	s->eta_s = s->wall_s = s->suspended_s = s->cpu_s = NAN;
+	s->peak_kib = -1;
+	s->submitted = q->ports.clock->date(q->ports.clock->data);
+	if (s->threads < 1)
+		s->threads = q->limits.job_threads;
+	if (s->memory_mib < 1)
+		s->memory_mib = q->limits.job_memory_mib;
+	for (int k = 0; k < s->n_after; k++) {
+		if (s->after[k] < 0)
+			s->after[k] = first - 1 - s->after[k];
+		if (s->after[k] >= s->id || (s->after[k] < first && !queue_job(q, s->after[k])))
+			return report_error(
+			        r, ST_PARAMETER,
+			        "--after %lld: there is no such job; 'batten jobs --all' "
+			        "lists them",
+			        (long long)s->after[k]);
+	}
+	return ST_OK;
+}
+
+static void queue_insert(struct queue *q, struct job *job)
+{
+	q->jobs[q->n++] = job;
+	q->count[job->stats.state]++;
+	if (job->stats.id > q->last)
+		q->last = job->stats.id;
+}
+
+/* A job's first state: in the line, or waiting for jobs that have failed already. */
+static void queue_admit(struct job *job)
+{
+	job->unsettled = line_unsettled(job);
+	job->q->unsettled |= job->unsettled > 0;
+	if (job->stats.state == JOB_QUEUED)
+		line_add(job);
+}
+
+enum status queue_submit(struct queue *q, const struct Stats *s, int n, int64_t *first,
+                         const struct report *r)
+{
+	const struct launcher *l = q->ports.launcher;
+	struct ledger_change *changes = calloc((size_t)n + 1, sizeof *changes);
+	struct job **fresh = calloc((size_t)n + 1, sizeof *fresh);
+	enum status st = changes && fresh ? ST_OK : ST_RESOURCE;
+	int made = 0, before = q->n;
+	int64_t last = q->last;
+	*first = q->last + 1;
+	if (q->leaving)
+		st = report_error(r, ST_RESOURCE, "the service is ending; submit again");
+	for (int i = 0; i < n && st == ST_OK; i++) {
+		struct job *job = fresh[made] = job_create(q);
+		if (!job) {
+			st = report_error(r, ST_RESOURCE, "cannot submit: out of memory");
+			break;
+		}
+		made++;
+		st = job_submitted(job, &s[i], *first, i, r);
+		if (st == ST_OK)
+			st = l->check(l->data, &job->stats, r);
+		if (st == ST_OK) {
+			queue_insert(q, job);
+			changes[i] =
+			        (struct ledger_change){ .id = job->stats.id, .stats = &job->stats };
+		}
+	}
+	if (st == ST_OK && n)
+		st = q->ports.ledger->write(q->ports.ledger->data, changes, (size_t)n, true, r);
+	if (st != ST_OK) {
+		q->count[JOB_QUEUED] -= q->n - before;
+		q->n = before;
+		q->last = last;
+		for (int i = 0; i < made; i++)
+			job_destroy(fresh[i]);
+	}
+	for (int i = 0; i < made && st == ST_OK; i++) {
+		queue_admit(fresh[i]);
+		job_changed(fresh[i], true);
+	}
+	free(changes);
+	free(fresh);
+	return st;
+}
+
+/* What had a process had it from a service that is no more. */
+static void job_loaded(struct job *job, bool killed)
+{
+	struct queue *q = job->q;
+	enum job_state state = job->stats.state;
+	struct report_store store;
+	job->stats.pid = 0;
+	if (state != JOB_STARTING && state != JOB_RUNNING && state != JOB_ENDING)
+		return;
+	q->count[state]--;
+	q->count[JOB_QUEUED]++;
+	job->stats.state = JOB_QUEUED;
+	job->front = true;
+	job_changed(job, true);
+	report_store_init(&store);
+	if (killed) {
+		job_enter(job, JOB_KILLED);
+	} else if (q->ports.launcher->check(q->ports.launcher->data, &job->stats, &store.report) !=
+	           ST_OK) {
+		job_enter(job, JOB_LOST);
+		job_reason(job, "the service ended while it ran, and it cannot go on: %s",
+		           store.error);
+	}
+}
+
+static enum status queue_take(void *data, struct Stats *s, bool front, bool killed)
+{
+	struct queue *q = data;
+	struct job *job = job_create(q);
+	if (!job) {
+		stats_finish(s);
+		return ST_RESOURCE;
+	}
+	job->stats = *s;
+	job->front = front;
+	queue_insert(q, job);
+	job_loaded(job, killed);
+	return ST_OK;
+}
+
+enum status queue_load(struct queue *q, const struct report *r)
+{
+	int64_t last = 0;
+	enum status st = q->ports.ledger->load(q->ports.ledger->data, queue_take, q, &last, r);
+	if (last > q->last)
+		q->last = last;
+	for (int i = 0; i < q->n && st == ST_OK; i++)
+		queue_admit(q->jobs[i]);
+	return st;
+}
+
+enum status queue_event(struct queue *q, int64_t id, enum job_event event, const char *by,
+                        const struct report *r)
+{
+	struct job *job = queue_job(q, id);
+	if (!job)
+		return report_error(r, ST_INPUT,
+		                    "there is no job %lld; 'batten jobs --all' lists them",
+		                    (long long)id);
+	if (job_step(job, event, by) != ST_OK)
+		return report_error(r, ST_INPUT, "job %lld is %s and cannot be %s", (long long)id,
+		                    job_state_table[job->stats.state].word, job_event_asked[event]);
+	return ST_OK;
+}
+
+enum status queue_priority(struct queue *q, int64_t id, int priority, const struct report *r)
+{
+	struct job *job = queue_job(q, id);
+	if (!job || job_state_table[job->stats.state].over)
+		return report_error(r, ST_INPUT, "there is no job %lld that has not ended",
+		                    (long long)id);
+	if (job->in_line)
+		line_remove(job);
+	job->stats.priority = priority;
+	if (job->stats.state == JOB_QUEUED)
+		line_add(job);
+	job_changed(job, true);
+	return ST_OK;
+}
+
+/* Close the gaps that forgotten jobs leave, in one pass. */
+static int without_forgotten(struct job **jobs, int n)
+{
+	int kept = 0;
+	for (int i = 0; i < n; i++)
+		if (!jobs[i]->forgotten)
+			jobs[kept++] = jobs[i];
+	return kept;
+}
+
+enum status queue_forget(struct queue *q, const int64_t *ids, int n, const struct report *r)
+{
+	struct ledger_change *changes = calloc((size_t)n + 1, sizeof *changes);
+	enum status st = changes ? ST_OK : ST_RESOURCE;
+	for (int i = 0; i < n && st == ST_OK; i++) {
+		const struct job *job = queue_job(q, ids[i]);
+		changes[i].id = ids[i];
+		if (!job || !job_state_table[job->stats.state].over)
+			st = report_error(r, ST_INPUT, "job %lld has not ended", (long long)ids[i]);
+	}
+	struct job **gone = calloc((size_t)n + 1, sizeof *gone);
+	if (!gone && st == ST_OK)
+		st = ST_RESOURCE;
+	if (st == ST_OK && n)
+		st = q->ports.ledger->write(q->ports.ledger->data, changes, (size_t)n, false, r);
+	for (int i = 0; i < n && st == ST_OK; i++) {
+		gone[i] = queue_job(q, ids[i]);
+		gone[i]->forgotten = true;
+	}
+	if (st == ST_OK) {
+		q->n_changed = without_forgotten(q->changed, q->n_changed);
+		q->n = without_forgotten(q->jobs, q->n);
+	}
+	for (int i = 0; i < n && st == ST_OK; i++) {
+		q->count[gone[i]->stats.state]--;
+		job_destroy(gone[i]);
+	}
+	free(gone);
+	free(changes);
+	return st;
+}
+
+void queue_leave(struct queue *q)
+{
+	q->leaving = true;
+	for (int i = q->n_active - 1; i >= 0; i--)
+		job_step(q->active[i], EV_LEAVE, NULL);
+}

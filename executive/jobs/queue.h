@@ -1,0 +1,88 @@
+/* queue.h - every job of the project, which of them run, and what happens to each.
+ *
+ * The queue stands on four things it is given: a launcher, a ledger, a clock and a listener. So its
+ * whole conduct is tested without a process and without waiting. Thread: the loop's.
+ */
+#ifndef BATTEN_QUEUE_H
+#define BATTEN_QUEUE_H
+
+#include "launcher.h"
+#include "ledger.h"
+#include "state.h"
+
+struct clock {
+	void *data;
+	double (*elapsed)(void *data); /* seconds, only ever rising */
+	double (*date)(void *data);    /* seconds since 1970 */
+};
+
+struct queue_limits {
+	int jobs, threads;  /* at once; a single job of more threads runs alone */
+	int64_t memory_mib; /* at once, of jobs that state it; 0: no limit */
+	int job_threads;    /* of a job that does not say */
+	int64_t job_memory_mib;
+	double cancel_grace, term_grace, hello_grace, end_grace; /* seconds */
+};
+
+struct queue_ports {
+	const struct launcher *launcher;
+	const struct ledger *ledger;
+	const struct clock *clock;
+	/* A job has changed, and the change is in the ledger; s is borrowed. */
+	void (*told)(void *data, const struct Stats *s);
+	void *told_data;
+};
+
+struct queue; /* opaque */
+
+/* Ports are borrowed. Errors: ST_RESOURCE. */
+enum status queue_create(struct queue **out, const struct queue_ports *ports,
+                         const struct queue_limits *limits);
+void queue_destroy(struct queue *q);
+
+/* What the launcher of this queue tells. */
+struct launcher_sink queue_sink(struct queue *q);
+
+/* Take the jobs out of the ledger; what had a worker is queued again, or lost. */
+enum status queue_load(struct queue *q, const struct report *r);
+
+/*
+ * Queue n jobs, all or none; in the ledger on return. Their worker, inputs, parameters and such are
+ * taken from s (which stay the caller's); an id in after that is -1 - i means job i of s.
+ * *first: their ids are first, first + 1, ... Errors: ST_PARAMETER, ST_INPUT, ST_RESOURCE.
+ */
+enum status queue_submit(struct queue *q, const struct Stats *s, int n, int64_t *first,
+                         const struct report *r);
+
+/*
+ * A user's event. by: who asks, for the reason ("you"). Done in part only on return: see the state.
+ * Errors: ST_INPUT (no such job, not possible in its state).
+ */
+enum status queue_event(struct queue *q, int64_t id, enum job_event event, const char *by,
+                        const struct report *r);
+enum status queue_priority(struct queue *q, int64_t id, int priority, const struct report *r);
+
+/* Forget jobs that have ended. Errors: ST_RESOURCE, ST_INPUT. */
+enum status queue_forget(struct queue *q, const int64_t *ids, int n, const struct report *r);
+
+/* End running jobs at a unit, to be queued for the next start; start none. */
+void queue_leave(struct queue *q);
+
+/* Start what may start, write the ledger, tell. At the end of each turn of the loop. */
+void queue_turn(struct queue *q);
+
+/* Call queue_tick at that time of the clock (INFINITY: never). */
+double queue_deadline(const struct queue *q);
+void queue_tick(struct queue *q);
+
+/* Jobs by rising id; borrowed until the next call that changes the queue. NULL: there is none. */
+int queue_count(const struct queue *q);
+const struct Stats *queue_at(struct queue *q, int i);
+const struct Stats *queue_find(struct queue *q, int64_t id);
+
+bool queue_busy(const struct queue *q);         /* any queued, starting, running, ending */
+int queue_processes(const struct queue *q);     /* jobs that have one, suspended ones too */
+int queue_active(const struct queue *q);        /* starting, running or ending */
+const char *queue_fault(const struct queue *q); /* why the ledger takes nothing, or NULL */
+
+#endif
