@@ -133,8 +133,8 @@ struct finish_rays {
  * Newton steps for the lanes `live` from (a, b). Comes back with the lanes that reached the surface
  * inside the patch; a, b, x are theirs.
  */
-INLINE vl finish_newton(const struct ray_patch *patch, const struct finish_rays *r, vl live, vd *pa,
-                        vd *pb, struct finish_point *x)
+INLINE vl finish_newton(const struct ray_patch *patch, const struct finish_rays *r,
+                        const double reach[2], vl live, vd *pa, vd *pb, struct finish_point *x)
 {
 	vd a = *pa, b = *pb;
 	vl done = live & ~live;
@@ -152,10 +152,13 @@ INLINE vl finish_newton(const struct ray_patch *patch, const struct finish_rays 
 		vd inverse = det / (det * det + small * small + 1e-200);
 		vd da = (b1 * f2 - b2 * f1) * inverse, db = (a2 * f1 - a1 * f2) * inverse;
 		vd rest = sized(f1) + sized(f2);
-		vl sure = live & (sized(da) + sized(db) < 1e-8) & (rest < 1e-7), ends = sure;
+		vd left = sized(da) + sized(db);
+		vl late = (vl){ 0 } - (step > 3);
+		vl sure = live & (left < 1e-8) & (rest < 1e-7);
+		/* where the Jacobian vanishes (a pole, a double root) the step says little, or
+		 * shrinks by halves only, once the ray is met */
+		vl ends = sure | (live & (rest < 1e-13) & ((left > 1e-6) | late));
 
-		if (step > 3) /* a double root: the step shrinks by halves only */
-			ends |= live & (rest < 1e-13);
 		if (any_half(ends)) {
 			vd ea = pickd(sure, da, filld(0)), eb = pickd(sure, db, filld(0));
 
@@ -171,8 +174,13 @@ INLINE vl finish_newton(const struct ray_patch *patch, const struct finish_rays 
 			done |= ends;
 			live &= ~ends;
 		}
-		a += da;
-		b += db;
+		/* near a tangent point a step may go anywhere: keep it in the leaf's neighbourhood */
+		vd over = sized(da) / reach[0], over_b = sized(db) / reach[1];
+		over = pickd(over > over_b, over, over_b);
+		vd cut = 1 / pickd(over > 1, over, filld(1));
+
+		a += da * cut;
+		b += db * cut;
 		live &= (sized(a - 0.5) < 2) & (sized(b - 0.5) < 2);
 		if (!any_half(live))
 			break;
@@ -244,7 +252,7 @@ static __attribute__((noinline)) vi finish(struct packet *p, uint32_t number, vf
 		vd a = middle[0] + half[0] * __builtin_convertvector(us.half[h], vd);
 		vd b = middle[1] + half[1] * __builtin_convertvector(ut.half[h], vd);
 		struct finish_point x = { 0 };
-		vl ok = finish_newton(patch, &r, live, &a, &b, &x);
+		vl ok = finish_newton(patch, &r, half, live, &a, &b, &x);
 		vd along = dotd(r.d, x.p) - r.kd;
 		vl leaf = (vl){ 0 } + (int64_t)number;
 

@@ -13,6 +13,9 @@
  */
 static const double bend_limit = 0.1;
 
+/* A straight net may still twist: of a hyperbolic paraboloid every row is straight. */
+static const double twist_limit = 0.1;
+
 /* A bicubic may stand for a leaf of higher degree when it is nearer than this part of its size:
  * the iteration starts there and the finish runs on the true surface. */
 static const double fit_limit = 3e-4;
@@ -139,6 +142,23 @@ static void bicubic_bend(double net[4][4][3], int d, double *bend, double *lengt
 	}
 }
 
+/* Largest twist of a cell of the net, in the same measure, against the longer direction. */
+static double bicubic_twist(double net[4][4][3], double length)
+{
+	double worst = 0;
+
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < 3; j++) {
+			double d[3];
+
+			for (int e = 0; e < 3; e++)
+				d[e] = net[i + 1][j + 1][e] - net[i + 1][j][e] - net[i][j + 1][e] +
+				       net[i][j][e];
+			worst = fmax(worst, length3(d));
+		}
+	return length > 0 ? 3 * worst / length : 0;
+}
+
 static void power_to_bezier(const double *a, int stride, double *out, int out_stride)
 {
 	double p0 = a[0], p1 = a[stride], p2 = a[2 * stride], p3 = a[3 * stride];
@@ -185,8 +205,13 @@ static int cut_direction(const struct bicubic *b, const int depth[2])
 	if (b->off[worse] > fmax(fit_limit * size, (double)RAY_NOISE) && can[worse])
 		return worse;
 
-	if (bend[0] <= bend_limit && bend[1] <= bend_limit)
+	if (bend[0] <= bend_limit && bend[1] <= bend_limit) {
+		int longer = length[1] > length[0];
+
+		if (bicubic_twist(net, longest) > twist_limit && can[longer])
+			return longer;
 		return -1;
+	}
 	/* where the bend moves the surface more, unless that direction is straight */
 	int d = bend[0] * length[0] >= bend[1] * length[1] ? 0 : 1;
 	if (bend[d] <= bend_limit / 4 || !can[d])

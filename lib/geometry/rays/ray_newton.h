@@ -12,7 +12,7 @@
 
 #include "ray_finish.h"
 
-enum { NEWTON_STEPS = 7, QUARTERINGS = 6 };
+enum { NEWTON_STEPS = 7, FOLD_STEPS = 12, QUARTERINGS = 6 };
 
 /* Candidates may lie out of the leaf by this much; the finish decides. */
 #define SLACK 2e-5f
@@ -50,16 +50,23 @@ INLINE void node_evaluate(const vf *f, vf s, vf t, vf *value, vf *ds, vf *dt)
 	*ds = ((h[3] * t + h[2]) * t + h[1]) * t + h[0];
 }
 
-/*
- * Newton's iteration; lanes come back as found (in the node, or so near that rounding decides) or
- * stuck (neither found nor gone).
- */
-INLINE vi node_newton(const struct node *n, float error, vf *ps, vf *pt, vi live, vi *stuck)
-{
-	vf s = *ps, t = *pt;
-	vi found = live & ~live;
+/* What the iteration leaves of a lane. */
+struct newton {
+	vf s, t;
+	vf unsure; /* how far s and t may still be off, together */
+	vi found;  /* in the node, or so near that rounding decides */
+	vi stuck;  /* neither found nor gone */
+};
 
-	for (int step = 0; step < NEWTON_STEPS; step++) {
+/* fold: the Jacobian may vanish; steps are then kept short and there are more of them. */
+INLINE void node_newton(const struct node *n, float error, bool fold, vi live, struct newton *x)
+{
+	vf s = x->s, t = x->t;
+	float edge = 1 + SLACK / n->half;
+	vf rest = fill(0);
+
+	x->found = live & ~live;
+	for (int step = 0; step < (fold ? FOLD_STEPS : NEWTON_STEPS); step++) {
 		vf v1, s1, t1, v2, s2, t2;
 
 		node_evaluate(n->f1, s, t, &v1, &s1, &t1);
@@ -67,27 +74,48 @@ INLINE vi node_newton(const struct node *n, float error, vf *ps, vf *pt, vi live
 		vf det = s1 * t2 - s2 * t1;
 		vf inverse = det / (det * det + 1e-30f);
 		vf ds = (v2 * t1 - v1 * t2) * inverse, dt = (v1 * s2 - v2 * s1) * inverse;
+		if (fold) {
+			vf cut = 0.7f / larger(larger(size(ds), size(dt)), fill(0.7f));
 
-		s = pick(live, s + ds, s);
-		t = pick(live, t + dt, t);
+			ds *= cut;
+			dt *= cut;
+		}
+		/* at a pole the step says nothing once the ray is met */
+		rest = size(v1) + size(v2);
+		vi there = live & (rest < (fold ? 2 * error : 0.25f * error));
+		vi move = live & ~there;
+
+		s = pick(move, s + ds, s);
+		t = pick(move, t + dt, t);
 		live &= (size(s) < 3) & (size(t) < 3);
-		vi ends = live & (size(ds) + size(dt) < 2e-4f);
+		vf left = size(ds) + size(dt);
+		vi ends = live & ((left < 2e-4f) | there);
 		if (any(ends)) {
-			/* how far the coefficients' error can move the solution */
+			/* how far the coefficients' error moves the solution, and what a step
+			 * leaves where convergence is slow */
 			vf grow = error * size(inverse);
-			float edge = 1 + SLACK / n->half;
+			vf off_s = grow * (size(t1) + size(t2)) + 0.05f * size(ds);
+			vf off_t = grow * (size(s1) + size(s2)) + 0.05f * size(dt);
+			vi in = ends & (size(s) <= edge + off_s) & (size(t) <= edge + off_t);
 
-			found |= ends & (size(s) <= edge + grow * (size(t1) + size(t2))) &
-			         (size(t) <= edge + grow * (size(s1) + size(s2)));
+			x->found |= in;
+			x->s = pick(in, s, x->s);
+			x->t = pick(in, t, x->t);
+			x->unsure = pick(in, off_s + off_t, x->unsure);
 			live &= ~ends;
 		}
 		if (!any(live))
 			break;
 	}
-	*ps = s;
-	*pt = t;
-	*stuck = live;
-	return found;
+	x->stuck = live;
+	if (fold) { /* a double root, nearly: the finish has the digits to tell */
+		vi in = live & (rest < 64 * error) & (size(s) < 1.5f) & (size(t) < 1.5f);
+
+		x->found |= in;
+		x->s = pick(in, s, x->s);
+		x->t = pick(in, t, x->t);
+		x->unsure = pick(in, fill(1), x->unsure);
+	}
 }
 
 /* Distance along the ray at (s, t) of the leaf. */
@@ -150,6 +178,46 @@ INLINE void node_rest(const vf *f, vf *rest, vf *rest_s, vf *rest_t)
 	*rest_t = column[1] + 2 * column[2] + 3 * column[3];
 }
 
+/* Candidates of a node that are in reach go to the finish. */
+INLINE vi node_candidates(const struct leaf_call *c, const struct node *n, const struct newton *x)
+{
+	vf s = n->s0 + n->half * x->s, t = n->t0 + n->half * x->t;
+	vf along = leaf_along(c, s, t);
+	vf margin = 4 * RAY_NOISE + 2 * n->half * c->l->reach * x->unsure;
+	vi found = x->found & (along > c->p->near - margin) & (along < c->p->far + margin);
+
+	if (!any(found))
+		return found;
+	/* where the place is quite unsure, the middle of the node is as good a start */
+	vf limit = fill(1.5f);
+	s = pick(size(s) < limit, s, fill(n->s0));
+	t = pick(size(t) < limit, t, fill(n->t0));
+	return finish(c->p, c->number, s, t, found);
+}
+
+/*
+ * The smallest node where the surface still may fold as seen along the ray: two hits lie on the two
+ * sides of the fold, so start on both, along the direction that the ray sees end on.
+ */
+static __attribute__((noinline)) vi node_fold(const struct leaf_call *c, const struct node *n,
+                                              vi act)
+{
+	vf s1 = n->f1[4], t1 = n->f1[1], s2 = n->f2[4], t2 = n->f2[1];
+	vi second = size(s2) + size(t2) > size(s1) + size(t1);
+	vf s = pick(second, t2, t1), t = -pick(second, s2, s1);
+	vf scale = 0.8f / (larger(size(s), size(t)) + 1e-30f);
+	vi hit = act & ~act;
+
+	for (int side = -1; side <= 1; side += 2) {
+		struct newton x = { .s = (float)side * scale * s, .t = (float)side * scale * t };
+
+		node_newton(n, c->l->error, true, act, &x);
+		if (any(x.found))
+			hit |= node_candidates(c, n, &x);
+	}
+	return hit;
+}
+
 static __attribute__((noinline)) vi node_trace(const struct leaf_call *c, const struct node *n,
                                                vi act)
 {
@@ -179,22 +247,16 @@ static __attribute__((noinline)) vi node_trace(const struct leaf_call *c, const 
 
 	if (any(solve)) {
 		vf inverse = det / (det * det + 1e-30f), s = ns * inverse, t = nt * inverse;
-		vi stuck, far = (size(s) > 1.2f) | (size(t) > 1.2f);
+		vi far = (size(s) > 1.2f) | (size(t) > 1.2f);
+		struct newton x = { .s = pick(far, fill(0), s), .t = pick(far, fill(0), t) };
 
-		s = pick(far, fill(0), s);
-		t = pick(far, fill(0), t);
-		vi found = node_newton(n, error, &s, &t, solve, &stuck);
-		open |= stuck;
-		if (any(found)) {
-			s = n->s0 + n->half * s;
-			t = n->t0 + n->half * t;
-			vf along = leaf_along(c, s, t);
-			/* near a tangent the distance is less sure than the place */
-			float margin = 4 * RAY_NOISE + 4 * error;
-
-			found &= (along > c->p->near - margin) & (along < c->p->far + margin);
-			if (any(found))
-				hit = finish(c->p, c->number, s, t, found);
+		if (n->depth < QUARTERINGS) {
+			node_newton(n, error, false, solve, &x);
+			open |= x.stuck;
+			if (any(x.found))
+				hit = node_candidates(c, n, &x);
+		} else {
+			hit = node_fold(c, n, solve);
 		}
 	}
 	if (n->depth == QUARTERINGS || !any(open))
