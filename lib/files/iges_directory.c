@@ -1,0 +1,123 @@
+/* iges_directory.c - the directory section: two lines an entity, twenty fields of eight columns. */
+#include "iges_reader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "number.h"
+
+enum { FIELD = 8 };
+
+/* Field k (0 .. 8) of a line as text of 8 columns; short lines read as blanks. */
+static void field_text(const struct iges *g, int line, int k, char out[FIELD + 1])
+{
+	size_t at = g->d_lines[line] + (size_t)k * FIELD;
+	for (int i = 0; i < FIELD; i++) {
+		char c = at + i < g->n ? g->bytes[at + i] : ' ';
+		out[i] = c == '\t' || c == '\0' ? ' ' : c;
+	}
+	out[FIELD] = '\0';
+}
+
+static int field_int(const struct iges *g, int line, int k)
+{
+	char text[FIELD + 1];
+	field_text(g, line, k, text);
+	const char *s = text + strspn(text, " ");
+	int64_t x;
+	return number_read_integer(&s, text + FIELD, &x) ? (int)x : 0;
+}
+
+/* Columns 1-2 of the status number: 01 is blanked. */
+static bool field_blanked(const struct iges *g, int line)
+{
+	char text[FIELD + 1];
+	field_text(g, line, 8, text);
+	return text[1] == '1';
+}
+
+static void field_label(const struct iges *g, int line, char out[FIELD + 1])
+{
+	char text[FIELD + 1];
+	field_text(g, line, 7, text);
+	size_t from = strspn(text, " "), to = FIELD;
+	while (to > from && text[to - 1] == ' ')
+		to--;
+	memcpy(out, text + from, to - from);
+	out[to - from] = '\0';
+}
+
+enum status iges_read_directory(struct iges *g)
+{
+	g->n_entries = g->n_d / 2;
+	g->entries = calloc(g->n_entries ? (size_t)g->n_entries : 1, sizeof *g->entries);
+	if (!g->entries)
+		return ST_RESOURCE;
+	for (int i = 0; i < g->n_entries; i++) {
+		int a = 2 * i, b = 2 * i + 1;
+		struct iges_entry *e = &g->entries[i];
+		*e = (struct iges_entry){
+			.type = field_int(g, a, 0),
+			.data = field_int(g, a, 1),
+			.transform = field_int(g, a, 6),
+			.blanked = field_blanked(g, a),
+			.color = field_int(g, b, 2),
+			.lines = field_int(g, b, 3),
+			.form = field_int(g, b, 4),
+			.subscript = field_int(g, b, 8),
+			.first_face = -1,
+			.first_edge = -1,
+		};
+		field_label(g, b, e->label);
+		if (field_int(g, b, 0) != e->type)
+			iges_warn(g, WARN_SEQUENCE, 2 * i + 1);
+	}
+	if (g->n_d % 2)
+		return model_warn(g->m,
+		                  "the directory has an odd number of lines; the last is left out");
+	return ST_OK;
+}
+
+struct iges_entry *iges_entry(struct iges *g, int de)
+{
+	return de >= 1 && de % 2 == 1 && de / 2 < g->n_entries ? &g->entries[de / 2] : NULL;
+}
+
+void iges_warn(struct iges *g, enum iges_warning w, int de)
+{
+	if (g->at && de != g->at)
+		return; /* a part is looked at again for those made of it */
+	if (g->warned[w].count++ == 0)
+		g->warned[w].first = de;
+}
+
+enum status iges_say_warnings(struct iges *g)
+{
+	static const char *const text[N_IGES_WARNINGS] = {
+		[WARN_RANGE_IGNORED] = "a parameter range that makes no sense; "
+		                       "the whole range of the knots is taken",
+		[WARN_RANGE_CUT] = "a parameter range that reaches beyond the knots; cut to them",
+		[WARN_RANGE_MISSING] = "no parameter range; the whole range of the knots is taken",
+		[WARN_BLANKED] = "blanked (hidden by the author); read like the others",
+		[WARN_BACK_POINTER] = "a wrong pointer to the parameter data; "
+		                      "found by the data's own pointers back",
+		[WARN_WEIGHTS] = "weights that are all zero and the flag of a polynomial; "
+		                 "weights of 1 are taken",
+		[WARN_RULED] =
+		        "ruled by equal arc length; read as ruled by equal parameters, which "
+		        "differs inside the surface",
+		[WARN_OFFSET] = "an offset surface, which is approximated",
+		[WARN_SEQUENCE] = "two directory lines that name different types",
+	};
+	for (int w = 0; w < N_IGES_WARNINGS; w++) {
+		int n = g->warned[w].count;
+		if (!n)
+			continue;
+		enum status st =
+		        model_warn(g->m, "%d %s (the first is D%d): %s", n,
+		                   n == 1 ? "entity" : "entities", g->warned[w].first, text[w]);
+		if (st != ST_OK)
+			return st;
+	}
+	return ST_OK;
+}

@@ -1,0 +1,301 @@
+/* iges_format.c - writer of IGES 5.3: 126 and 128, their names (406 form 15) and colors (314). */
+#include "iges.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "file.h"
+#include "number.h"
+
+enum { HEADER_COLUMNS = 72, DATA_COLUMNS = 64, SEQUENCE_MAX = 9999999 };
+
+/* A section being written: columns of text broken into lines. */
+struct writer {
+	struct text directory, data; /* whole lines */
+	struct text line;            /* data columns of the P line begun */
+	int n_d, n_p;                /* lines in them */
+	int de;                      /* of the entity at hand */
+};
+
+static void end_line(struct writer *w)
+{
+	text_addf(&w->data, "%-*s%8dP%7d\n", DATA_COLUMNS, w->line.s ? w->line.s : "", w->de,
+	          ++w->n_p);
+	text_reset(&w->line);
+}
+
+/* A parameter with its delimiter; it does not run over a line's end. */
+static void put(struct writer *w, const char *s, size_t n)
+{
+	if (w->line.n + n > DATA_COLUMNS)
+		end_line(w);
+	text_add_bytes(&w->line, s, n);
+}
+
+static void put_int(struct writer *w, int x, char delimiter)
+{
+	char s[16];
+	put(w, s, (size_t)snprintf(s, sizeof s, "%d%c", x, delimiter));
+}
+
+/* Reals of IGES have a point, and E before the exponent. */
+static void put_real(struct writer *w, double x, char delimiter)
+{
+	char s[NUMBER_SIZE], out[NUMBER_SIZE + 4];
+	size_t n = (size_t)number_write(s, x), m = 0;
+	bool point = memchr(s, '.', n) != NULL;
+	for (size_t i = 0; i < n; i++) {
+		if ((s[i] == 'e' || s[i] == 'E') && !point)
+			out[m++] = '.';
+		point |= s[i] == 'e' || s[i] == 'E';
+		out[m++] = s[i] == 'e' ? 'E' : s[i];
+	}
+	if (!point)
+		out[m++] = '.';
+	out[m++] = delimiter;
+	put(w, out, m);
+}
+
+static void put_reals(struct writer *w, const double *x, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		put_real(w, x[i], ',');
+}
+
+/* A string runs over line ends, each of them full. What is no character becomes a blank. */
+static void put_string(struct writer *w, const char *s, char delimiter)
+{
+	char count[24];
+	size_t n = strlen(s);
+	put(w, count, (size_t)snprintf(count, sizeof count, "%zuH", n));
+	for (; *s; s++)
+		put(w, (unsigned char)*s < ' ' ? " " : s, 1);
+	put(w, &delimiter, 1);
+}
+
+/* The two directory lines of an entity whose `lines` parameter lines end at the last one. */
+static void put_entry(struct writer *w, int type, int form, int lines, int color,
+                      const char *status)
+{
+	text_addf(&w->directory, "%8d%8d%8d%8d%8d%8d%8d%8d%sD%7d\n", type, w->n_p - lines + 1, 0, 0,
+	          0, 0, 0, 0, status, w->n_d + 1);
+	text_addf(&w->directory, "%8d%8d%8d%8d%8d%8s%8s%8s%8dD%7d\n", type, 0, color, lines, form,
+	          "", "", "", 0, w->n_d + 2);
+	w->n_d += 2;
+}
+
+static bool all_weights_equal(const double *points, size_t n)
+{
+	for (size_t i = 1; i < n; i++)
+		if (points[4 * i + 3] != points[3])
+			return false;
+	return true;
+}
+
+static void put_point(struct writer *w, const double *p)
+{
+	for (int k = 0; k < 3; k++)
+		put_real(w, p[3] == 1 ? p[k] : p[k] / p[3], ',');
+}
+
+/* The plane z = 0 is the only one told: its normal must then follow. */
+static bool in_plane(const struct curve *c)
+{
+	for (int i = 0; i < c->n; i++)
+		if (c->points[4 * (size_t)i + 2] != 0)
+			return false;
+	return true;
+}
+
+static void put_curve(struct writer *w, const struct curve *c)
+{
+	bool planar = in_plane(c);
+	const int head[] = {
+		126,        c->n - 1,           c->order - 1,
+		planar,     curve_closed(c, 0), all_weights_equal(c->points, (size_t)c->n),
+		c->periodic
+	};
+	for (size_t i = 0; i < sizeof head / sizeof head[0]; i++)
+		put_int(w, head[i], ',');
+	put_reals(w, c->knots, (size_t)c->n + c->order);
+	for (int i = 0; i < c->n; i++)
+		put_real(w, c->points[4 * (size_t)i + 3], ',');
+	for (int i = 0; i < c->n; i++)
+		put_point(w, c->points + 4 * (size_t)i);
+	put_reals(w, c->domain, 2);
+	put_reals(w, (const double[]){ 0, 0 }, 2);
+	put_real(w, planar ? 1 : 0, ',');
+}
+
+static void put_surface(struct writer *w, const struct surface *s)
+{
+	size_t n = (size_t)s->n[0] * s->n[1];
+	const int head[] = { 128,
+		             s->n[0] - 1,
+		             s->n[1] - 1,
+		             s->order[0] - 1,
+		             s->order[1] - 1,
+		             surface_closed(s, 0, 0),
+		             surface_closed(s, 1, 0),
+		             all_weights_equal(s->points, n),
+		             s->periodic[0],
+		             s->periodic[1] };
+	for (size_t i = 0; i < sizeof head / sizeof head[0]; i++)
+		put_int(w, head[i], ',');
+	for (int d = 0; d < 2; d++)
+		put_reals(w, s->knots[d], (size_t)s->n[d] + s->order[d]);
+	for (int j = 0; j < s->n[1]; j++)
+		for (int i = 0; i < s->n[0]; i++)
+			put_real(w, s->points[4 * ((size_t)i * s->n[1] + j) + 3], ',');
+	for (int j = 0; j < s->n[1]; j++)
+		for (int i = 0; i < s->n[0]; i++)
+			put_point(w, s->points + 4 * ((size_t)i * s->n[1] + j));
+	put_reals(w, s->domain[0], 4);
+}
+
+/* A helper entity, written before the one that points to it; returns its directory entry. */
+static int put_color(struct writer *w, const double color[3])
+{
+	int from = w->n_p;
+	w->de = w->n_d + 1;
+	put_int(w, 314, ',');
+	for (int i = 0; i < 3; i++)
+		put_real(w, 100 * color[i], i < 2 ? ',' : ';');
+	end_line(w);
+	put_entry(w, 314, 0, w->n_p - from, 0, "00000200");
+	return w->de;
+}
+
+static int put_name(struct writer *w, const char *name)
+{
+	int from = w->n_p;
+	w->de = w->n_d + 1;
+	put_int(w, 406, ',');
+	put_int(w, 1, ',');
+	put_string(w, name, ';');
+	end_line(w);
+	put_entry(w, 406, 15, w->n_p - from, 0, "00010300");
+	return w->de;
+}
+
+/* The curve of an entity that 126 can hold; NULL for none. */
+static const struct curve *curve_of(const struct entity *e)
+{
+	if (e->kind == ENTITY_CURVE)
+		return &e->curve;
+	return e->kind == ENTITY_CURVE_ON_SURFACE && e->space.order ? &e->space : NULL;
+}
+
+static void put_entity(struct writer *w, const struct entity *e)
+{
+	const struct curve *curve = curve_of(e);
+	if (!curve && e->kind != ENTITY_SURFACE)
+		return;
+	int color = e->has_color ? -put_color(w, e->color) : 0;
+	int name = e->name && e->name[0] ? put_name(w, e->name) : 0;
+	int from = w->n_p;
+	w->de = w->n_d + 1;
+	if (curve)
+		put_curve(w, curve);
+	else
+		put_surface(w, &e->geometry);
+	put_int(w, 0, ','); /* pointers to associations */
+	put_int(w, name != 0, name ? ',' : ';');
+	if (name)
+		put_int(w, name, ';');
+	end_line(w);
+	put_entry(w, curve ? 126 : 128, 0, w->n_p - from, color, "00000000");
+}
+
+/* Unit flag of global field 14; 3 says that the name in field 15 counts. */
+static int unit_flag(const char *unit)
+{
+	static const char *const name[] = { "in", "mm",  NULL, "ft", "mi", "m",
+		                            "km", "mil", "um", "cm", "uin" };
+	for (size_t i = 0; unit && i < sizeof name / sizeof name[0]; i++)
+		if (name[i] && strcmp(unit, name[i]) == 0)
+			return (int)i + 1;
+	return unit ? 3 : 2;
+}
+
+/* Header lines: text cut into 72 columns. Returns how many. */
+static int put_header(struct text *out, char letter, const char *s, size_t n)
+{
+	int lines = 0;
+	for (size_t i = 0; i < n || i == 0; i += HEADER_COLUMNS) {
+		int here = (int)(n - i < HEADER_COLUMNS ? n - i : HEADER_COLUMNS);
+		text_addf(out, "%-*.*s%c%7d\n", HEADER_COLUMNS, here, s + i, letter, ++lines);
+	}
+	return lines;
+}
+
+/* Largest coordinate, which the header wants. */
+static double largest_coordinate(const struct model *m)
+{
+	double x = 0;
+	for (int i = 0; i < m->n; i++) {
+		const struct entity *e = &m->entities[i];
+		const struct curve *c = curve_of(e);
+		const double *p = c ? c->points : e->geometry.points;
+		size_t n = c ? (size_t)c->n : (size_t)e->geometry.n[0] * e->geometry.n[1];
+		for (size_t k = 0; k < 4 * n; k++)
+			if (k % 4 != 3)
+				x = fmax(x, fabs(p[k] / p[k | 3]));
+	}
+	return x;
+}
+
+static int put_global(const struct model *m, struct text *out)
+{
+	struct text t = { 0 };
+	char unit[16] = "MM";
+	if (m->unit)
+		snprintf(unit, sizeof unit, "%s", m->unit);
+	for (char *s = unit; *s; s++)
+		*s = (char)toupper((unsigned char)*s);
+	text_addf(&t, "1H,,1H;,,,6Hbatten,%zuH%s,32,38,6,308,15,,",
+	          strlen("batten " BATTEN_VERSION), "batten " BATTEN_VERSION);
+	text_add_number(&t, m->scale);
+	text_addf(&t, ",%d,%zuH%s,1,,,", unit_flag(m->unit), strlen(unit), unit);
+	double largest = largest_coordinate(m);
+	text_add_number(&t, 1e-9 * (largest > 0 ? largest : 1));
+	text_add(&t, ",");
+	text_add_number(&t, largest);
+	text_add(&t, ",,,11,0;");
+	int lines = put_header(out, 'G', t.s ? t.s : "", t.n);
+	out->failed |= t.failed;
+	text_finish(&t);
+	return lines;
+}
+
+void iges_format(const struct model *m, struct text *out)
+{
+	static const char start[] = "curves and surfaces written by batten";
+	struct writer w = { 0 };
+	for (int i = 0; i < m->n; i++)
+		put_entity(&w, &m->entities[i]);
+	int n_s = put_header(out, 'S', start, sizeof start - 1);
+	int n_g = put_global(m, out);
+	text_add_bytes(out, w.directory.s, w.directory.n);
+	text_add_bytes(out, w.data.s, w.data.n);
+	text_addf(out, "S%7dG%7dD%7dP%7d%40sT%7d\n", n_s, n_g, w.n_d, w.n_p, "", 1);
+	out->failed |= w.directory.failed || w.data.failed || w.line.failed ||
+	               w.n_p > SEQUENCE_MAX || w.n_d > SEQUENCE_MAX;
+	text_finish(&w.directory);
+	text_finish(&w.data);
+	text_finish(&w.line);
+}
+
+enum status iges_write(const struct model *m, const char *path, const struct report *r)
+{
+	struct text t = { 0 };
+	iges_format(m, &t);
+	enum status st = t.failed ? report_error(r, ST_RESOURCE,
+	                                         "cannot write '%s': no memory, or more lines than "
+	                                         "IGES can number (9999999)",
+	                                         path)
+	                          : file_write(path, t.s, t.n, r);
+	text_finish(&t);
+	return st;
+}

@@ -1,0 +1,179 @@
+/* iges_lines.c - an IGES file as lines: which section each belongs to and where it begins. */
+#include "iges_reader.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct line {
+	const char *s;
+	size_t n;    /* bytes without line end and without blanks behind */
+	char letter; /* of its section, 0: none */
+	size_t data; /* columns before the letter */
+};
+
+static bool is_letter_of_section(char c)
+{
+	return c == 'S' || c == 'G' || c == 'D' || c == 'P' || c == 'T' || c == 'C' || c == 'B';
+}
+
+/* From *at on; false at the end. Empty lines come with letter 0. */
+static bool next_line(const struct iges *g, size_t *at, struct line *l)
+{
+	if (*at >= g->n)
+		return false;
+	const char *s = g->bytes + *at;
+	size_t left = g->n - *at, n = left;
+	if (g->stride) {
+		n = left < g->stride ? left : g->stride;
+		*at += n;
+	} else {
+		const char *e = memchr(s, g->line_end, left);
+		if (e)
+			n = (size_t)(e - s);
+		*at += e ? n + 1 : n;
+	}
+	while (n && (s[n - 1] == ' ' || s[n - 1] == '\r' || s[n - 1] == '\n'))
+		n--;
+	*l = (struct line){ .s = s, .n = n };
+	if (n > LETTER_COLUMN && n <= LETTER_COLUMN + 8 && is_letter_of_section(s[LETTER_COLUMN]))
+		l->data = LETTER_COLUMN;
+	else if (n >= 8 && is_letter_of_section(s[n - 8]))
+		l->data = n - 8; /* bytes and columns differ: tabs, or letters of several bytes */
+	else
+		return true;
+	l->letter = s[l->data];
+	return true;
+}
+
+/* How lines end is the same in the whole file. */
+static void find_line_end(struct iges *g)
+{
+	size_t look = g->n < 4096 ? g->n : 4096;
+	g->line_end = '\n';
+	if (memchr(g->bytes, '\n', look))
+		return;
+	if (memchr(g->bytes, '\r', look))
+		g->line_end = '\r';
+	else
+		g->stride = 80;
+}
+
+bool iges_recognise(const char *bytes, size_t n)
+{
+	struct iges g = { .bytes = bytes, .n = n };
+	struct line l;
+	size_t at = 0;
+	find_line_end(&g);
+	for (int i = 0; i < 8 && next_line(&g, &at, &l); i++) {
+		if (l.letter && l.letter != 'D' && l.letter != 'P' && l.letter != 'T' &&
+		    strspn(l.s + l.data + 1, " 0123456789") >= l.n - l.data - 1)
+			return true;
+		if (l.n)
+			return false;
+	}
+	return false;
+}
+
+/* Append an offset to an array that doubles. */
+static bool add_offset(size_t **p, int *n, size_t offset)
+{
+	if (*n == INT_MAX)
+		return false;
+	if ((*n & (*n - 1)) == 0) {
+		size_t *q = reallocarray(*p, *n ? (size_t)*n * 2 : 1, sizeof *q);
+		if (!q)
+			return false;
+		*p = q;
+	}
+	(*p)[(*n)++] = offset;
+	return true;
+}
+
+static enum status add_line(struct iges *g, const struct line *l)
+{
+	size_t offset = (size_t)(l->s - g->bytes);
+	bool good = true;
+	switch (l->letter) {
+	case 'C':
+		return report_error(g->r, ST_INPUT,
+		                    "cannot read '%s': it is in IGES's compressed form; "
+		                    "export it again in the fixed (80 column) form",
+		                    g->name);
+	case 'B':
+		return report_error(g->r, ST_INPUT,
+		                    "cannot read '%s': it is in IGES's binary form; "
+		                    "export it again as ASCII",
+		                    g->name);
+	case 'G':
+		text_add_bytes(&g->global, l->s, l->data);
+		good = !g->global.failed;
+		break;
+	case 'D':
+		good = add_offset(&g->d_lines, &g->n_d, offset);
+		break;
+	case 'P':
+		good = add_offset(&g->p_lines, &g->n_p, offset);
+		g->odd_lines |= l->data != LETTER_COLUMN;
+		break;
+	case 'T':
+		memcpy(g->terminate, l->s, l->data < HEADER_COLUMNS ? l->data : HEADER_COLUMNS);
+		break;
+	}
+	return good ? ST_OK
+	            : report_error(g->r, ST_RESOURCE, "cannot read '%s': no memory", g->name);
+}
+
+enum status iges_index(struct iges *g)
+{
+	struct line l = { 0 };
+	size_t at = 0;
+	int lines = 0;
+	bool ended = false;
+	find_line_end(g);
+	while (!ended && next_line(g, &at, &l)) {
+		enum status st = l.letter ? add_line(g, &l) : ST_OK;
+		if (st == ST_OK && (++lines & 0xffff) == 0)
+			st = progress_step(g->progress, 0);
+		if (st != ST_OK)
+			return st;
+		ended = l.letter == 'T';
+	}
+	if (!ended)
+		return report_error(
+		        g->r, ST_INPUT,
+		        "cannot read '%s': it is cut short: the last line (T in column 73) "
+		        "is missing; copy or export it again",
+		        g->name);
+	return ST_OK;
+}
+
+void iges_line(const struct iges *g, int i, const char **s, const char **end)
+{
+	size_t offset = g->p_lines[i];
+	*s = g->bytes + offset;
+	if (!g->odd_lines) {
+		*end = *s + DATA_COLUMNS;
+		return;
+	}
+	struct line l = { 0 };
+	next_line(g, &offset, &l);
+	*end = *s + (l.data > HEADER_COLUMNS - DATA_COLUMNS
+	                     ? l.data - (HEADER_COLUMNS - DATA_COLUMNS)
+	                     : 0);
+}
+
+int iges_back_pointer(const struct iges *g, int i)
+{
+	const char *s, *end;
+	iges_line(g, i, &s, &end);
+	int de = 0;
+	for (int k = 0; k < HEADER_COLUMNS - DATA_COLUMNS; k++) {
+		char c = end[k];
+		if (c >= '0' && c <= '9' && de < INT_MAX / 10 - 1)
+			de = 10 * de + (c - '0');
+		else if (c != ' ')
+			return 0;
+	}
+	return de;
+}

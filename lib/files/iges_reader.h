@@ -1,0 +1,169 @@
+/* iges_reader.h - what the files of the IGES reader share.
+ *
+ * The reader works on the file's own bytes: an index holds where each line of the directory (D) and
+ * of the parameter data (P) begins, and a cursor walks over the 64 columns of data of P lines.
+ * Sections, columns and field numbers are those of IGES 5.3 (US PRO, 1996), section 2.2.
+ */
+#ifndef BATTEN_IGES_READER_H
+#define BATTEN_IGES_READER_H
+
+#include <stdint.h>
+
+#include "iges.h"
+
+enum {
+	DATA_COLUMNS = 64,   /* of a P line; the rest is the back pointer, letter and number */
+	HEADER_COLUMNS = 72, /* of an S or G line */
+	LETTER_COLUMN = 72,  /* from 0 */
+	NESTING_MAX = 16,    /* entities made of entities made of ... */
+};
+
+struct iges_header {
+	char delimiter, record;
+	int unit_flag;
+	double resolution; /* smallest distance that matters to the author, 0: not said */
+};
+
+/* A directory entry. Its number is 2 i + 1 for entry i. */
+struct iges_entry {
+	int type, form;
+	int data;      /* its first P line, from 1 */
+	int lines;     /* how many P lines it says it has */
+	int transform; /* directory entry of its 124, or 0 */
+	int color;     /* 1 .. 8, or minus the directory entry of a 314 */
+	int subscript;
+	char label[9];
+	bool blanked;
+	bool used;      /* another entity is made of it */
+	int trims;      /* loops of all faces on it */
+	int first_face; /* in faces[], -1: none */
+	int first_edge; /* in bounds[]: curves that bound the faces on it; -1: none */
+};
+
+struct iges_face {
+	int de, next;
+};
+
+struct iges_bound {
+	int de, next; /* a curve */
+};
+
+/* Kinds of warning that are counted and said once. */
+enum iges_warning {
+	WARN_RANGE_IGNORED,
+	WARN_RANGE_CUT,
+	WARN_RANGE_MISSING,
+	WARN_BLANKED,
+	WARN_BACK_POINTER,
+	WARN_WEIGHTS,
+	WARN_RULED,
+	WARN_OFFSET,
+	WARN_SEQUENCE,
+	N_IGES_WARNINGS,
+};
+
+struct iges {
+	const char *bytes;
+	size_t n;
+	const char *name;          /* of the file, borrowed */
+	size_t stride;             /* bytes a line where no line ends are in the file, else 0 */
+	char line_end;             /* '\n' or '\r' */
+	bool odd_lines;            /* some P lines have their letter elsewhere than in column 73 */
+	struct text global;        /* G section */
+	size_t *d_lines, *p_lines; /* owned; offsets in bytes */
+	int n_d, n_p;
+	char terminate[HEADER_COLUMNS + 1]; /* T line; "" if there is none */
+	struct iges_header header;
+	struct iges_entry *entries; /* owned */
+	int n_entries;
+	int *first_lines; /* owned; by back pointer: first P line of each entry, from 1; or NULL */
+	struct iges_face *faces;   /* owned */
+	struct iges_bound *bounds; /* owned */
+	int n_faces, n_bounds;
+	int64_t budget; /* P lines that may still be read: keeps files that refer to themselves in
+	                   ever more ways from taking ever more time */
+	int far;        /* the last P line reached, for progress */
+	struct {
+		int count, first;
+	} warned[N_IGES_WARNINGS];
+	int at;                    /* the entity at hand, which warnings are about; -1: none */
+	char reason[1024];         /* why the entity at hand cannot be read */
+	struct report_store store; /* where kernel functions leave their sentence */
+	struct model *m;
+	const struct progress *progress;
+	const struct report *r;
+};
+
+/* iges_lines.c. Errors: ST_INPUT (compressed or binary form, no T line), ST_RESOURCE. */
+enum status iges_index(struct iges *g);
+/* Data columns of P line i (from 0). */
+void iges_line(const struct iges *g, int i, const char **s, const char **end);
+/* The directory entry that P line i says it belongs to; 0 if it cannot be read. */
+int iges_back_pointer(const struct iges *g, int i);
+
+/* iges_header.c: delimiters, unit and scale into g->header and g->m. Errors: ST_RESOURCE. */
+enum status iges_read_header(struct iges *g);
+
+/* iges_directory.c. Errors: ST_RESOURCE. */
+enum status iges_read_directory(struct iges *g);
+struct iges_entry *iges_entry(struct iges *g, int de); /* NULL where there is none */
+void iges_warn(struct iges *g, enum iges_warning w, int de);
+enum status iges_say_warnings(struct iges *g);
+
+/* iges_cursor.c: parameters of one entity, one after the other. */
+struct iges_cursor {
+	struct iges *g;
+	int de, line, last; /* P lines from 0: at hand, the last that the entry counts */
+	const char *s, *end;
+	bool ended;     /* the record delimiter has been met */
+	size_t missing; /* parameters asked for that are empty or behind the end */
+	enum status st; /* a cursor that has failed stays failed */
+};
+
+/* Open entity `de`, behind its type number. type 0: any. Errors: ST_INPUT with g->reason,
+ * ST_CANCELLED. */
+enum status iges_open(struct iges *g, int de, int type, struct iges_cursor *c);
+double iges_real(struct iges_cursor *c); /* 0 where missing */
+int iges_int(struct iges_cursor *c);
+/* A count or an index: fails outside lo .. hi. */
+int iges_count(struct iges_cursor *c, const char *what, int64_t lo, int64_t hi);
+/* n reals to out, `group` at a time, groups `stride` doubles apart. Missing ones fail. */
+void iges_reals(struct iges_cursor *c, double *out, size_t n, int group, size_t stride);
+void iges_string(struct iges_cursor *c, struct text *out);
+/* The most parameters that can follow. */
+int64_t iges_left(const struct iges_cursor *c);
+/* Fail for that reason unless failed already; gives the status. */
+enum status iges_fail(struct iges_cursor *c, const char *format, ...)
+        __attribute__((format(printf, 2, 3)));
+/* Likewise without a cursor. */
+enum status iges_refuse(struct iges *g, const char *format, ...)
+        __attribute__((format(printf, 2, 3)));
+/* Pass a failure on as ST_INPUT, a kernel function's sentence as the reason if it left one. */
+enum status iges_pass(struct iges *g, enum status st);
+
+/* iges_uses.c: which entities are parts of others, which faces lie on which surface.
+ * Errors: ST_RESOURCE, ST_CANCELLED. */
+enum status iges_find_uses(struct iges *g);
+
+/* iges_transform.c: the matrix of an entry's 124 and all that those refer to. */
+enum status iges_matrix(struct iges *g, int transform, double m[3][4], bool *any);
+enum status iges_point_at(struct iges *g, int de, struct vec3 *p);     /* a 116 */
+enum status iges_direction_at(struct iges *g, int de, struct vec3 *d); /* a 123 */
+
+/* iges_curves.c, iges_splines.c, iges_surfaces.c, iges_planes.c: entities as NURBS, 124 applied.
+ * `c` may be NULL; else it is left behind the entity's own parameters. */
+enum status iges_curve(struct iges *g, int de, int depth, struct curve *out, struct iges_cursor *c);
+enum status iges_surface(struct iges *g, int de, int depth, struct surface *out,
+                         struct iges_cursor *c);
+enum status iges_points(struct iges *g, int de, struct point_list *out, struct iges_cursor *c);
+/* The distance within which pieces of an entity of that size join. */
+double iges_tolerance(const struct iges *g, double size);
+bool iges_is_curve(const struct iges_entry *e);
+bool iges_is_surface(const struct iges_entry *e);
+bool iges_is_points(const struct iges_entry *e);
+
+enum status iges_spline_curve(struct iges_cursor *c, struct curve *out);
+enum status iges_spline_surface(struct iges_cursor *c, struct surface *out);
+enum status iges_plane(struct iges_cursor *c, int depth, struct surface *out);
+
+#endif
