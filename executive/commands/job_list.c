@@ -98,9 +98,9 @@ void format_seconds(double s, char out[16])
 	if (n < 0)
 		out[0] = 0;
 	else if (n < 3600)
-		snprintf(out, 16, "%ld:%02ld", n / 60, n % 60);
+		snprintf(out, 16, "%d:%02d", (int)(n / 60), (int)(n % 60));
 	else
-		snprintf(out, 16, "%ld h %02ld", n / 3600, n / 60 % 60);
+		snprintf(out, 16, "%d h %02d", (int)(n / 3600), (int)(n / 60 % 60));
 }
 
 void print_state_color(enum job_state state, bool color, FILE *out)

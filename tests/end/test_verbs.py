@@ -1,0 +1,97 @@
+"""Every verb has help, a man page and completion, says what is wrong, and exits as it should."""
+import json
+import os
+import re
+import subprocess
+
+import end
+
+VERBS = ("activate config doctor eval help hold import info jobs kill log priority prune release retry run "
+         "serve shutdown submit suspend wait workers").split()
+
+
+def test_every_verb_has_help_and_a_man_page(project):
+    for verb in VERBS:
+        said = project.run("batten", verb, "--help").stdout
+        assert said.startswith(f"usage: batten {verb}"), said
+        assert "--json" in said
+        page = project.run("batten", "--man", verb).stdout
+        assert page.startswith(f".TH BATTEN-{verb} 1")
+        assert os.path.exists(os.path.join(end.BUILD, "executive", f"batten-{verb}.1"))
+
+
+def test_the_completion_is_bash(project):
+    path = os.path.join(end.BUILD, "executive", "batten.bash")
+    script = f"source {path}; COMP_WORDS=(batten sus); COMP_CWORD=1; _batten; echo ${{COMPREPLY[*]}}"
+    said = subprocess.run(["bash", "-c", script], capture_output=True, text=True, timeout=end.GUARD_S)
+    assert said.stdout.split() == ["suspend"], said
+    options = script.replace("batten sus", "batten wait --t").replace("CWORD=1", "CWORD=2")
+    said = subprocess.run(["bash", "-c", options], capture_output=True, text=True, timeout=end.GUARD_S)
+    assert said.stdout.split() == ["--timeout"], said
+
+
+def test_what_is_wrong_is_said_on_standard_error(project):
+    for arguments in (["nonsense"], ["jobs", "--nonsense"], ["suspend"], ["suspend", "x"], ["suspend", "1", "--all"],
+                      ["wait", "--timeout"], ["wait", "--timeout", "-1"], ["log"], ["run"], ["run", "shading"],
+                      ["run", "nonsense", "x.igs"], ["config", "nonsense"], ["config", "jobs", "many"],
+                      ["help", "nonsense"], ["eval"], ["jobs", "--color", "blue"], []):
+        done = project.run("batten", *arguments, status=2)
+        assert done.stdout == "", arguments
+        assert done.stderr.strip(), arguments
+    for arguments in (["info", "missing.igs"], ["eval", "missing.igs", "0", "0"], ["import", "missing.igs"],
+                      ["run", "shading", "missing.igs"], ["suspend", "77"], ["log", "77"], ["wait", "77"]):
+        done = project.run("batten", *arguments, status=1)
+        assert done.stderr.startswith("batten "), (arguments, done.stderr)
+
+
+def test_reading_makes_no_project(project):
+    torus = os.path.join(end.EXAMPLES, "torus.igs")
+    project.run("batten", "info", torus)
+    project.run("batten", "eval", torus, "0.1", "0.1")
+    project.run("batten", "help")
+    project.run("batten", "workers")
+    assert not os.path.exists(project.path(".batten"))
+
+
+def test_settings_are_kept(project):
+    project.run("batten", "config", "jobs", "3")
+    assert project.run("batten", "config", "jobs").stdout.strip() == "3"
+    project.environment["BATTEN_JOBS"] = "5"
+    rows = {row["key"]: row for row in project.json("batten", "config")["settings"]}
+    assert rows["jobs"]["value"] == "5" and rows["jobs"]["source"] == "environment"
+    assert rows["nice"]["source"] == "default"
+
+
+def test_the_workers_describe_themselves(project):
+    workers = {w["name"]: w for w in project.json("batten", "workers")["workers"]}
+    for name in ("curvature", "isophotes", "raytrace", "shading"):
+        w = workers[name]
+        assert not w["broken"] and w["title"] and w["version"] >= 1 and w["parameters"] and w["outputs"], w
+        direct = json.loads(project.run(f"batten-{name}", "--describe").stdout)
+        assert direct["parameters"] == w["parameters"]
+        for p in w["parameters"]:
+            assert p["help"] and {"name", "type", "default", "min", "max", "unit", "choices"} <= set(p), p
+        assert "--" + w["parameters"][0]["name"] in project.run("batten", "help", name).stdout
+
+
+def test_the_doctor_finds_nothing_bad(project):
+    findings = project.json("batten", "doctor")["findings"]
+    assert {f["what"] for f in findings} >= {"processor", "project", "disk", "settings", "workers", "service"} - {
+        "workers"}
+    assert all(f["verdict"] != "bad" for f in findings), findings
+
+
+def test_eval_takes_blanks_and_commas(project):
+    sphere = os.path.join(end.EXAMPLES, "sphere.base")
+    box = project.json("batten", "info", sphere)["entities"][0]
+    (u0, u1), (v0, v1) = box["domain"]
+    middle = f"{(u0 + u1) / 2!r}", f"{(v0 + v1) / 2!r}"
+    one = project.json("batten", "eval", sphere, *middle)["points"]
+    many = project.json("batten", "eval", sphere, "-", stdin=f"{middle[0]},{middle[1]}\n\n {middle[0]} {middle[1]}\n")
+    assert many["points"] == one * 2
+    done = project.run("batten", "eval", sphere, repr(u1 + 1), middle[1], status=2)
+    assert re.search(r"outside the domain of surface 1", done.stderr)
+    project.run("batten", "eval", sphere, "-", stdin="1\n", status=2)
+
+
+end.main()
