@@ -104,6 +104,7 @@ int main(int argc, char **argv)
 	struct report_store said;
 	report_store_init(&said);
 	signal(SIGPIPE, SIG_IGN);
+	signal(SIGXFSZ, SIG_IGN); /* a file grown too large is a write that fails */
 	if (openblas_set_num_threads)
 		openblas_set_num_threads(1);
 	enum status st = options_parse(&t, argc, argv, &mode, &said.report);

@@ -235,11 +235,14 @@ static enum status compute(struct work *w, const char *part)
 		st = do_units(w);
 	if (st == ST_OK && p->task->n_shards == 0)
 		st = finish(w);
-	if (st == ST_CANCELLED && p->part)
+	if (st == ST_CANCELLED && p->part && part_count(p->part) > 0)
 		report_error(&w->report, st, "cancelled; %zu of %zu units are kept in '%s'",
 		             part_count(p->part), p->n_units, part);
 	outputs_abandon(w);
-	part_close(p->part);
+	if (p->part && part_count(p->part) == 0)
+		part_remove(p->part); /* nothing to go on from */
+	else
+		part_close(p->part);
 	if (worker.end)
 		worker.end(w);
 	return st;
