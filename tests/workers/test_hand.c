@@ -24,15 +24,19 @@ static int leave(void **state)
 	return 0;
 }
 
+static void expect_word(const char *text, const char *word)
+{
+	if (!text || !strstr(text, word))
+		fail_msg("'%s' is not in '%s'", word, text ? text : "nothing");
+}
+
 /* Run, compare exit status, look for a word in what it printed. */
 static void expect(struct ran r, int exit_status, const char *out, const char *err)
 {
 	if (r.exit_status != exit_status)
 		fail_msg("exit status %d, expected %d: %s", r.exit_status, exit_status, r.err);
-	if (!strstr(r.out, out))
-		fail_msg("'%s' is not in '%s'", out, r.out);
-	if (!strstr(r.err, err))
-		fail_msg("'%s' is not in '%s'", err, r.err);
+	expect_word(r.out, out);
+	expect_word(r.err, err);
 	ran_finish(&r);
 }
 
