@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char *probe, *scene;
+static char *probe, *scene;
 
 static int enter(void **state)
 {
@@ -423,8 +423,8 @@ int main(int argc, char **argv)
 {
 	if (argc < 3)
 		return 1;
-	probe = argv[1];
-	scene = argv[2];
+	probe = realpath(argv[1], NULL); /* the tests change folders */
+	scene = realpath(argv[2], NULL);
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(test_names, enter, leave),
 		cmocka_unit_test_setup_teardown(test_same_bytes, enter, leave),
@@ -441,5 +441,8 @@ int main(int argc, char **argv)
 		cmocka_unit_test_setup_teardown(test_job_file, enter, leave),
 		cmocka_unit_test_setup_teardown(test_shards, enter, leave),
 	};
-	return cmocka_run_group_tests_name("worker by hand", tests, NULL, NULL);
+	int failed = cmocka_run_group_tests_name("worker by hand", tests, NULL, NULL);
+	free(probe);
+	free(scene);
+	return failed;
 }

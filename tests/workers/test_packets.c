@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static const char *probe;
+static char *probe;
 
 static int enter(void **state)
 {
@@ -321,7 +321,7 @@ int main(int argc, char **argv)
 {
 	if (argc < 2)
 		return 1;
-	probe = argv[1];
+	probe = realpath(argv[1], NULL); /* the tests change folders */
 	signal(SIGPIPE, SIG_IGN);
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(test_whole_job, enter, leave),
@@ -333,5 +333,7 @@ int main(int argc, char **argv)
 		cmocka_unit_test_setup_teardown(test_bad_packets, enter, leave),
 		cmocka_unit_test_setup_teardown(test_bad_jobs, enter, leave),
 	};
-	return cmocka_run_group_tests_name("worker and packets", tests, NULL, NULL);
+	int failed = cmocka_run_group_tests_name("worker and packets", tests, NULL, NULL);
+	free(probe);
+	return failed;
 }
