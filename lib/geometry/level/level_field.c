@@ -100,40 +100,64 @@ static bool plane_make(struct tracer *t, double *out)
 	return true;
 }
 
-/* Largest coefficient on a side of the patch; where it is rounding, the side becomes zero. */
-static bool side_is_zero(const struct tracer *t, double *c, int d, bool upper)
+/* Coefficients of f on one side of the patch: the first, the step, the highest index. */
+struct side {
+	size_t first, step;
+	int degree;
+};
+
+static struct side side_of(const struct tracer *t, int d, bool upper)
 {
 	int m = t->level->degree[0], n = t->level->degree[1];
-	size_t first = !upper ? 0 : d == 0 ? (size_t)m * (n + 1) : (size_t)n;
-	size_t step = d == 0 ? 1 : (size_t)n + 1;
-	int count = d == 0 ? n : m;
-	for (int i = 0; i <= count; i++)
-		if (fabs(c[first + step * i]) > ZERO_SHARE * t->scale)
+	size_t row = (size_t)n + 1;
+	if (d == 0)
+		return (struct side){ upper ? row * m : 0, 1, n };
+	return (struct side){ upper ? (size_t)n : 0, row, m };
+}
+
+static bool side_is_zero(const struct tracer *t, const double *c, int d, bool upper)
+{
+	struct side s = side_of(t, d, upper);
+	for (int i = 0; i <= s.degree; i++)
+		if (fabs(c[s.first + s.step * i]) > ZERO_SHARE * t->scale)
 			return false;
-	for (int i = 0; i <= count; i++)
-		c[first + step * i] = 0;
 	return true;
 }
 
 /*
  * f is zero all along a side that is one point: the curve goes through the pole, and f without its
- * factor tells in which directions.
+ * factor tells in which directions. Where that is zero, too, the level is touched only; then f
+ * stays as it is, and the pole undecided.
  */
-static void take_out_poles(struct tracer *t, double *c)
+static void take_out_pole(struct tracer *t, double *c, int d, bool upper)
 {
 	const struct level_surface *s = surface_of(t);
 	int m = t->level->degree[0], n = t->level->degree[1];
-	for (int side = 0; side < 4; side++) {
-		int d = side / 2, upper = side % 2;
-		int at = t->place[d] + upper;
+	memcpy(t->field, c, sizeof *c * t->n_field);
+	form_scale(t->field, m, n, s->binomial, false);
+	form_divide(t->field, m, n, d, upper);
+	form_scale(t->field, m, n, s->binomial, true);
+	if (side_is_zero(t, t->field, d, upper))
+		return;
+	memcpy(c, t->field, sizeof *c * t->n_field);
+	t->own_field = true;
+}
+
+/* A side on which f is rounding becomes zero, so that both its patches agree that it is. */
+static void clean_sides(struct tracer *t, double *c)
+{
+	const struct level_surface *s = surface_of(t);
+	for (int k = 0; k < 4; k++) {
+		int d = k / 2, upper = k % 2, at = t->place[d] + upper;
+		struct side side = side_of(t, d, upper);
+		if (!side_is_zero(t, c, d, upper))
+			continue;
+		for (int i = 0; i <= side.degree; i++)
+			c[side.first + side.step * i] = 0;
 		size_t edge = d == 0 ? level_edge(s, 0, at, t->place[1])
 		                     : level_edge(s, 1, t->place[0], at);
-		if (!side_is_zero(t, c, d, upper) || s->edges[d][edge] != EDGE_POLE)
-			continue;
-		form_scale(c, m, n, s->binomial, false);
-		form_divide(c, m, n, d, upper);
-		form_scale(c, m, n, s->binomial, true);
-		t->own_field = true;
+		if (s->edges[d][edge] == EDGE_POLE)
+			take_out_pole(t, c, d, upper);
 	}
 }
 
@@ -146,7 +170,7 @@ bool level_field_make(struct tracer *t, double *out)
 	                                                : isophote_make(t, out);
 	if (!there)
 		return false;
-	take_out_poles(t, out);
+	clean_sides(t, out);
 	if (t->own_field)
 		memcpy(t->field, out, sizeof *out * t->n_field);
 	return true;

@@ -1,0 +1,210 @@
+/* level_curves.c - curves on a surface as figures, as a .base file and as a drawing. */
+#include "level_curves.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base.h"
+#include "json.h"
+#include "picture.h"
+
+enum { LABEL_SIZE = 32 };
+
+static void figures_set(json_t *o, size_t branches, size_t closed, double length, double max_error,
+                        size_t undecided)
+{
+	json_set_int(o, "branches", (int64_t)branches);
+	json_set_int(o, "closed", (int64_t)closed);
+	json_set_number(o, "length", length);
+	json_set_number(o, "max_error", max_error);
+	json_set_int(o, "undecided", (int64_t)undecided);
+}
+
+json_t *level_curves_figures(const struct level_curves *c)
+{
+	struct level_result sum = { 0 };
+	json_t *o = json_object(), *levels = json_array();
+	for (int i = 0; i < c->n; i++) {
+		const struct level_result *x = &c->results[i];
+		json_t *row = json_object();
+		json_set_number(row, c->value_name, c->values[i]);
+		figures_set(row, x->n_branches, x->n_closed, x->length, x->max_error,
+		            x->n_undecided);
+		json_array_append_new(levels, row);
+		sum.n_branches += x->n_branches;
+		sum.n_closed += x->n_closed;
+		sum.length += x->length;
+		sum.max_error = fmax(sum.max_error, x->max_error);
+		sum.n_undecided += x->n_undecided;
+	}
+	figures_set(o, sum.n_branches, sum.n_closed, sum.length, sum.max_error, sum.n_undecided);
+	if (c->n > 1)
+		json_object_set_new(o, "levels", levels);
+	else
+		json_decref(levels);
+	return o;
+}
+
+static enum status attribute_number(struct entity *e, const char *name, double x)
+{
+	struct text t = { 0 };
+	text_add_number(&t, x);
+	enum status st = t.failed ? ST_RESOURCE : entity_set_attribute(e, name, t.s);
+	text_finish(&t);
+	return st;
+}
+
+static enum status branch_add(const struct level_curves *c, int i, const struct level_branch *b,
+                              struct model *m)
+{
+	struct entity e;
+	entity_init(&e, ENTITY_CURVE_ON_SURFACE);
+	e.surface = 0;
+	enum status st = curve_copy(&e.curve, &b->uv);
+	if (st == ST_OK)
+		st = curve_copy(&e.space, &b->space);
+	if (st == ST_OK)
+		st = attribute_number(&e, c->value_name, c->values[i]);
+	if (st == ST_OK)
+		st = entity_set_attribute(&e, "closed", b->closed ? "yes" : "no");
+	if (st == ST_OK)
+		st = attribute_number(&e, "length", b->length);
+	if (st == ST_OK)
+		st = attribute_number(&e, "max_error", b->max_error);
+	if (st == ST_OK)
+		st = model_add(m, &e);
+	entity_finish(&e);
+	return st;
+}
+
+/* Undecided boxes as pairs of corners in u, v. */
+static enum status boxes_add(const struct level_curves *c, int i, struct model *m)
+{
+	const struct level_result *x = &c->results[i];
+	struct entity e;
+	if (x->n_undecided == 0)
+		return ST_OK;
+	entity_init(&e, ENTITY_POINTS);
+	enum status st = ST_RESOURCE;
+	e.points.dimension = 2;
+	e.points.values = malloc(sizeof *e.points.values * 4 * x->n_undecided);
+	if (e.points.values) {
+		e.points.n = 2 * (int)x->n_undecided;
+		for (size_t k = 0; k < x->n_undecided; k++)
+			for (int d = 0; d < 2; d++) {
+				e.points.values[4 * k + d] = x->undecided[k].lo[d];
+				e.points.values[4 * k + 2 + d] = x->undecided[k].hi[d];
+			}
+		st = attribute_number(&e, c->value_name, c->values[i]);
+	}
+	if (st == ST_OK)
+		st = entity_set_attribute(&e, "undecided", "corners of boxes");
+	if (st == ST_OK)
+		st = model_add(m, &e);
+	entity_finish(&e);
+	return st;
+}
+
+static enum status surface_add(const struct work *w, struct model *m)
+{
+	struct entity e;
+	entity_init(&e, ENTITY_SURFACE);
+	e.used = true;
+	enum status st = surface_copy(&e.geometry, w->surfaces[0]);
+	if (st == ST_OK && w->entities[0]->name)
+		st = model_set_text(&e.name, w->entities[0]->name);
+	if (st == ST_OK)
+		st = model_add(m, &e);
+	entity_finish(&e);
+	return st;
+}
+
+/* The surface first, then by rising value the curves on it and what stayed undecided. */
+static enum status curves_fill(const struct level_curves *c, struct model *m)
+{
+	const struct work *w = c->work;
+	struct text t = { 0 };
+	int n;
+	const struct work_attribute *a = work_attributes(w, &n);
+	enum status st = w->file_unit ? model_set_text(&m->unit, w->file_unit) : ST_OK;
+	for (int i = 0; st == ST_OK && i < n; i++)
+		st = model_set_attribute(m, a[i].name, a[i].value);
+	text_add_number(&t, c->tolerance);
+	if (st == ST_OK)
+		st = t.failed ? ST_RESOURCE : model_set_attribute(m, "tolerance", t.s);
+	text_finish(&t);
+	if (st == ST_OK)
+		st = surface_add(w, m);
+	for (int i = 0; st == ST_OK && i < c->n; i++) {
+		for (size_t b = 0; st == ST_OK && b < c->results[i].n_branches; b++)
+			st = branch_add(c, i, &c->results[i].branches[b], m);
+		if (st == ST_OK)
+			st = boxes_add(c, i, m);
+	}
+	return st;
+}
+
+enum status level_curves_write(void *data, const char *path, const struct report *r)
+{
+	struct model m;
+	model_init(&m);
+	m.scale = 1;
+	enum status st = curves_fill(data, &m);
+	if (st != ST_OK)
+		report_error(r, st, "no memory to write the curves");
+	else
+		st = base_write(&m, path, r);
+	model_finish(&m);
+	return st;
+}
+
+/* The curves of value i, colored, the longest labelled; returns their number. */
+static size_t curves_draw(const struct level_curves *c, int i, char *label,
+                          struct picture_curve *out)
+{
+	const struct level_result *x = &c->results[i];
+	size_t longest = 0;
+	for (size_t b = 0; b < x->n_branches; b++) {
+		out[b].curve = &x->branches[b].space;
+		out[b].color = colormap_color(&c->map, c->values[i]);
+		out[b].width = 1.5;
+		if (x->branches[b].length > x->branches[longest].length)
+			longest = b;
+	}
+	snprintf(label, LABEL_SIZE, "%.4g%s", c->values[i], c->unit);
+	if (x->n_branches > 0)
+		out[longest].label = label;
+	return x->n_branches;
+}
+
+enum status level_curves_draw(void *data, const char *path, const struct report *r)
+{
+	const struct level_curves *c = data;
+	const struct work *w = c->work;
+	struct camera camera;
+	struct box box;
+	size_t n = 0, at = 0;
+	for (int i = 0; i < c->n; i++)
+		n += c->results[i].n_branches;
+	struct picture_curve *curves = calloc(n + 1, sizeof *curves);
+	char *labels = calloc((size_t)c->n, LABEL_SIZE);
+	enum status st = curves && labels ? surface_box(w->surfaces[0], 0, &box) : ST_RESOURCE;
+	if (st != ST_OK)
+		report_error(r, st, "no memory to draw the curves");
+	else
+		st = camera_fit(&camera, work_text(w, "view"), &box, 1600, 1000, r);
+	if (st == ST_OK) {
+		for (int i = 0; i < c->n; i++)
+			at += curves_draw(c, i, labels + LABEL_SIZE * i, curves + at);
+		struct picture_lines lines = { .camera = &camera,
+			                       .surfaces = w->surfaces,
+			                       .n_surfaces = w->n_surfaces,
+			                       .curves = curves,
+			                       .n_curves = n,
+			                       .title = c->title };
+		st = picture_lines(path, PICTURE_SVG, &lines, THEME_LIGHT, r);
+	}
+	free(labels);
+	free(curves);
+	return st;
+}

@@ -1,0 +1,37 @@
+/* level_curves.h - what workers that trace curves on a surface leave: figures, file, drawing. */
+#ifndef BATTEN_LEVEL_CURVES_H
+#define BATTEN_LEVEL_CURVES_H
+
+#include <jansson.h>
+
+#include "colormap.h"
+#include "level.h"
+#include "worker.h"
+
+/* The results for n values on a worker's one surface. All borrowed. */
+struct level_curves {
+	const struct work *work;
+	const char *value_name; /* attribute and figure: "angle" */
+	const char *title;      /* of the drawing */
+	const char *unit;       /* behind a value in the drawing, UTF-8 */
+	struct colormap map;    /* colors of the values */
+	double tolerance;
+	const double *values;
+	const struct level_result *results;
+	int n;
+};
+
+/* branches, closed, length, max_error, undecided over all values, and `levels` with the same for
+ * each where there are several. New reference, NULL for want of memory. */
+json_t *level_curves_figures(const struct level_curves *c);
+
+/*
+ * For work_output, data a struct level_curves: the surface and the curves on it in the .base
+ * format, undecided boxes as pairs of corners in u, v.
+ */
+work_writer level_curves_write;
+
+/* Likewise an SVG drawing from the worker's parameter `view`. */
+work_writer level_curves_draw;
+
+#endif
