@@ -38,6 +38,16 @@ BATTEN_INLINE void basis_inline(const int order, const double *knots, int s, dou
 	}
 }
 
+/* Index of the largest of the functions. */
+static inline int basis_heaviest(const double *basis, int order)
+{
+	int best = 0;
+	for (int i = 1; i < order; i++)
+		if (basis[i] > basis[best])
+			best = i;
+	return best;
+}
+
 /* A sum of homogeneous points: four doubles that stay in vector registers. */
 typedef double point4 __attribute__((vector_size(32)));
 

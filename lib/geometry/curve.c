@@ -79,18 +79,24 @@ void curve_derivatives(const struct curve *c, double t, int d, struct vec3 *out)
 	const int s = knots_domain_span(k, c->n, c->knots, c->domain, t);
 	const double *p = c->points + (size_t)4 * (s - k + 1);
 	knots_basis(k, c->knots, s, t, top, basis);
+	/* Lengths are taken from the control point that weighs most here, so that differences of
+	 * large coordinates do not eat up the derivatives. */
+	const double *o = p + (size_t)4 * basis_heaviest(basis, k);
+	const point4 center = { o[0] / o[3], o[1] / o[3], o[2] / o[3], 0 };
 	for (int i = 0; i <= top; i++) {
 		point4 sum = { 0 };
-		for (int j = 0; j < k; j++)
-			point4_add(&sum, basis[i * k + j], p + 4 * j);
+		for (int j = 0; j < k; j++) {
+			point4 x;
+			memcpy(&x, p + 4 * j, sizeof x);
+			sum += basis[i * k + j] * (x - x[3] * center);
+		}
 		memcpy(h[i], &sum, sizeof sum);
 	}
-	if (c->rational) {
-		quotient_curve(top, (const double(*)[4])h, d, out);
-		return;
-	}
-	for (int i = 0; i <= d; i++)
+	for (int i = 0; i <= d && !c->rational; i++)
 		out[i] = i <= top ? vec3(h[i][0], h[i][1], h[i][2]) : vec3(0, 0, 0);
+	if (c->rational)
+		quotient_curve(top, (const double(*)[4])h, d, out);
+	out[0] = vec3_add(out[0], vec3(center[0], center[1], center[2]));
 }
 
 struct vec3 curve_point(const struct curve *c, double t)

@@ -14,7 +14,8 @@ struct on_surface {
 /* Point in space and derivatives with respect to t to order d <= 3, by the chain rule. */
 void on_surface_derivatives(const struct on_surface *c, double t, int d, struct vec3 *out);
 
-/* Curvature, torsion, normal and geodesic curvature (signed, by the surface's N). */
+/* Curvature, torsion, normal and geodesic curvature (signed, by the surface's N). Where the curve
+ * stands still `limit` is set and all that needs its direction is NaN. */
 struct on_surface_shape {
 	struct curve_shape space;
 	struct vec3 normal;

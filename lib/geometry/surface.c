@@ -107,13 +107,21 @@ void surface_derivatives(const struct surface *s, double u, double v, int d, str
 		knots_basis(s->order[e], s->knots[e], span[e], at[e], top[e], basis[e]);
 	}
 	const double *p = s->points + 4 * ((size_t)(span[0] - ku + 1) * s->n[1] + span[1] - kv + 1);
+	/* Lengths are taken from the control point that weighs most here, so that differences of
+	 * large coordinates do not eat up the derivatives. */
+	const double *o = p + 4 * ((size_t)s->n[1] * basis_heaviest(basis[0], ku) +
+	                           basis_heaviest(basis[1], kv));
+	const point4 center = { o[0] / o[3], o[1] / o[3], o[2] / o[3], 0 };
 	for (int l = 0; l <= top[1]; l++) {
 		point4 row[ORDER_MAX];
 		for (int i = 0; i < ku; i++) {
 			const double *q = p + (size_t)4 * s->n[1] * i;
 			row[i] = (point4){ 0 };
-			for (int j = 0; j < kv; j++)
-				point4_add(&row[i], basis[1][l * kv + j], q + 4 * j);
+			for (int j = 0; j < kv; j++) {
+				point4 x;
+				memcpy(&x, q + 4 * j, sizeof x);
+				row[i] += basis[1][l * kv + j] * (x - x[3] * center);
+			}
 		}
 		for (int k = 0; k <= top[0] && (k + l <= d); k++) {
 			point4 sum = { 0 };
@@ -122,16 +130,15 @@ void surface_derivatives(const struct surface *s, double u, double v, int d, str
 			memcpy(h[k * ORDER_MAX + l], &sum, sizeof sum);
 		}
 	}
-	if (s->rational) {
-		quotient_surface(top, (const double(*)[4])h, ORDER_MAX, d, out);
-		return;
-	}
-	for (int k = 0; k <= d; k++)
+	for (int k = 0; k <= d && !s->rational; k++)
 		for (int l = 0; k + l <= d; l++) {
 			const double *a = h[k * ORDER_MAX + l];
 			out[k * (d + 1) + l] =
 			        k <= top[0] && l <= top[1] ? vec3(a[0], a[1], a[2]) : vec3(0, 0, 0);
 		}
+	if (s->rational)
+		quotient_surface(top, (const double(*)[4])h, ORDER_MAX, d, out);
+	out[0] = vec3_add(out[0], vec3(center[0], center[1], center[2]));
 }
 
 /* The net of a span, contracted with the basis of v and then of u; du, dv only where `first`. */
