@@ -18,11 +18,12 @@
 
 extern char **environ;
 
-enum { HELLO_MS = 10000, READY_MS = 10000, READ_BYTES = 1 << 16 };
+enum { HELLO_MS = 10000, READY_MS = 10000, READ_BYTES = 1 << 16, STARTS = 3 };
 
 struct client {
 	int fd;
 	int64_t last_id;
+	bool gone; /* the service closed the connection */
 	struct message_reader reader;
 };
 
@@ -102,6 +103,8 @@ static enum status start_service(const struct project *p, const struct report *r
 		posix_spawn_file_actions_addopen(&actions, 2, log, O_WRONLY | O_CREAT | O_APPEND,
 		                                 0600);
 		posix_spawn_file_actions_adddup2(&actions, fds[1], 3);
+		/* nobody who waits for the end of a pipe of ours shall wait for the service */
+		posix_spawn_file_actions_addclosefrom_np(&actions, 4);
 		posix_spawn_file_actions_addchdir_np(&actions, p->folder);
 		error = posix_spawn(&pid, program, &actions, &attributes, argv, environment);
 	}
@@ -161,6 +164,7 @@ static enum status next_packet(struct client *c, struct message *m, int ms, cons
 			return report_error(r, ST_INTERNAL, "the service sent no packet: %s",
 			                    c->reader.reason);
 		int came = take_in(c, ms, -1);
+		c->gone |= came < 0;
 		if (came < 0)
 			return report_error(
 			        r, ST_RESOURCE,
@@ -172,8 +176,10 @@ static enum status next_packet(struct client *c, struct message *m, int ms, cons
 	}
 }
 
+/* ST_CANCELLED: it ended before it answered. */
 static enum status say_hello(struct client *c, const struct report *r)
 {
+	struct report_store store;
 	struct message m;
 	json_t *body = json_pack("{s:i, s:s, s:s, s:i}", "protocol", MESSAGE_PROTOCOL, "program",
 	                         "batten", "version", BATTEN_VERSION, "pid", (int)getpid());
@@ -181,10 +187,11 @@ static enum status say_hello(struct client *c, const struct report *r)
 
 	json_decref(body);
 	if (st != ST_OK)
-		return report_error(r, ST_RESOURCE, "the service went away; try again");
-	st = next_packet(c, &m, HELLO_MS, r);
+		return ST_CANCELLED;
+	report_store_init(&store);
+	st = next_packet(c, &m, HELLO_MS, &store.report);
 	if (st != ST_OK)
-		return st;
+		return c->gone ? ST_CANCELLED : report_error(r, st, "%s", store.error);
 	if (m.type != MESSAGE_HELLO ||
 	    json_int(m.body, "protocol", MESSAGE_PROTOCOL) != MESSAGE_PROTOCOL)
 		st = report_error(r, ST_INPUT,
@@ -195,22 +202,12 @@ static enum status say_hello(struct client *c, const struct report *r)
 	return st;
 }
 
-enum status client_connect(struct client **out, const struct project *p, bool start,
-                           const struct report *r)
+/* ST_CANCELLED: nobody listens, or who did was just ending. */
+static enum status connect_once(struct client **out, const struct project *p,
+                                const struct report *r)
 {
 	int fd = -1;
 	enum status st = open_socket(&fd, p->socket, r);
-
-	if (st == ST_CANCELLED && start) {
-		st = start_service(p, r);
-		if (st == ST_OK)
-			st = open_socket(&fd, p->socket, r);
-		if (st == ST_CANCELLED)
-			return report_error(r, ST_RESOURCE,
-			                    "the service ended at once; see '%s/logs/service.log'",
-			                    p->hidden);
-	} else if (st == ST_CANCELLED)
-		return report_error(r, ST_RESOURCE, "no service runs in '%s'", p->folder);
 	if (st != ST_OK)
 		return st;
 	struct client *c = calloc(1, sizeof *c);
@@ -221,12 +218,30 @@ enum status client_connect(struct client **out, const struct project *p, bool st
 	c->fd = fd;
 	message_reader_init(&c->reader, FROM_SERVICE);
 	st = say_hello(c, r);
-	if (st != ST_OK) {
+	if (st == ST_OK)
+		*out = c;
+	else
 		client_close(c);
-		return st;
+	return st;
+}
+
+enum status client_connect(struct client **out, const struct project *p, bool start,
+                           const struct report *r)
+{
+	enum status st = connect_once(out, p, r);
+
+	for (int tries = 0; st == ST_CANCELLED && start && tries < STARTS; tries++) {
+		st = start_service(p, r);
+		if (st == ST_OK)
+			st = connect_once(out, p, r);
 	}
-	*out = c;
-	return ST_OK;
+	if (st == ST_CANCELLED && start)
+		return report_error(r, ST_RESOURCE,
+		                    "the service ended at once; see '%s/logs/service.log'",
+		                    p->hidden);
+	if (st == ST_CANCELLED)
+		return report_error(r, ST_RESOURCE, "no service runs in '%s'", p->folder);
+	return st;
 }
 
 void client_close(struct client *c)

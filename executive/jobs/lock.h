@@ -1,0 +1,19 @@
+/* lock.h - one service a project folder. */
+#ifndef BATTEN_LOCK_H
+#define BATTEN_LOCK_H
+
+#include <stdbool.h>
+
+#include "project.h"
+
+/*
+ * Take the project's lock; it is let go when fd is closed, and by the process's end. A second part
+ * of it is held while the service does not listen: while it starts, and while it ends.
+ * wait: where another service has it, wait until that one listens (then that is an error), or is
+ * gone (then it is taken).
+ * Errors: ST_RESOURCE (another has it: host and process are named; or it cannot be made).
+ */
+enum status lock_take(const struct project *p, bool wait, int *fd, const struct report *r);
+void lock_listening(int fd, bool listening);
+
+#endif

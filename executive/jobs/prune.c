@@ -1,0 +1,101 @@
+/* prune.c - take away the files in .batten/ that belong to no job. */
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "number.h"
+#include "path.h"
+#include "server.h"
+#include "text.h"
+
+/* An input is written before its job is submitted: a young one may be waiting for that. */
+enum { INPUT_YOUNG_S = 600 };
+
+/* "12.json" -> 12, -1 for another name. */
+static int64_t name_id(const char *name, const char *extension)
+{
+	int64_t id;
+	const char *p = name, *end = name + strlen(name);
+	if (!path_has_suffix(name, extension) || !number_read_integer(&p, end, &id) || id < 1 ||
+	    strcmp(p, extension))
+		return -1;
+	return id;
+}
+
+struct keeper {
+	struct queue *queue;
+	const char *extension;
+	char **inputs; /* owned; borrowed strings, sorted */
+	size_t n_inputs;
+};
+
+static bool keeps_id(const struct keeper *k, const char *path, const char *name)
+{
+	int64_t id = name_id(name, k->extension);
+	(void)path;
+	return id < 0 || queue_find(k->queue, id);
+}
+
+static int by_name(const void *a, const void *b)
+{
+	return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static bool keeps_input(const struct keeper *k, const char *path, const char *name)
+{
+	struct stat s;
+	(void)name;
+	if (k->n_inputs && bsearch(&path, k->inputs, k->n_inputs, sizeof *k->inputs, by_name))
+		return true;
+	return stat(path, &s) || time(NULL) - s.st_mtime < INPUT_YOUNG_S;
+}
+
+static void folder_prune(const struct project *p, const char *folder, const struct keeper *k,
+                         bool (*keeps)(const struct keeper *k, const char *path, const char *name))
+{
+	char *path = path_join(p->hidden, folder);
+	DIR *d = path ? opendir(path) : NULL;
+	for (struct dirent *e; d && (e = readdir(d));) {
+		char *file = e->d_name[0] == '.' ? NULL : path_join(path, e->d_name);
+		if (file && !keeps(k, file, e->d_name))
+			unlink(file);
+		free(file);
+	}
+	if (d)
+		closedir(d);
+	free(path);
+}
+
+/* Every input of every job left; false for want of memory, then all are kept. */
+static bool inputs_gather(struct keeper *k)
+{
+	size_t n = 0;
+	for (int i = 0; i < queue_count(k->queue); i++)
+		n += (size_t)queue_at(k->queue, i)->n_inputs;
+	k->inputs = calloc(n + 1, sizeof *k->inputs);
+	for (int i = 0; k->inputs && i < queue_count(k->queue); i++) {
+		const struct Stats *s = queue_at(k->queue, i);
+		for (int j = 0; j < s->n_inputs; j++)
+			k->inputs[k->n_inputs++] = s->inputs[j].path;
+	}
+	if (k->n_inputs)
+		qsort(k->inputs, k->n_inputs, sizeof *k->inputs, by_name);
+	return k->inputs;
+}
+
+void prune_files(const struct project *p, struct queue *q)
+{
+	struct keeper k = { .queue = q };
+	k.extension = ".log";
+	folder_prune(p, "logs", &k, keeps_id);
+	k.extension = ".json";
+	folder_prune(p, "jobs", &k, keeps_id);
+	k.extension = ".part";
+	folder_prune(p, "parts", &k, keeps_id);
+	if (inputs_gather(&k))
+		folder_prune(p, "inputs", &k, keeps_input);
+	free(k.inputs);
+}

@@ -1,0 +1,492 @@
+/* request.c - what clients ask for: the table of requests, and how each is answered. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "file.h"
+#include "json.h"
+#include "server.h"
+
+enum { JOBS_FILE_MAX = 256 << 20, HOUR_S = 3600 };
+
+/* A row of the table: what it does; the event it stands for; the state a job must come to. */
+struct request_row {
+	enum message_type type;
+	void (*take)(struct request *q, const struct request_row *row, const json_t *body);
+	enum job_event event;
+	bool (*wanted)(enum job_state state);
+};
+
+static const struct request_row *row_find(enum message_type type);
+
+static struct queue *queue_of(const struct request *q)
+{
+	return q->session->server->queue;
+}
+
+/* The first sentence is the one the client gets, with ERROR in place of END. */
+static void request_say(void *data, enum report_level level, enum status st, const char *text)
+{
+	struct request *q = data;
+	if (level != REPORT_ERROR || q->error)
+		return;
+	q->st = st;
+	q->error = strdup(text);
+}
+
+static struct report request_report(struct request *q)
+{
+	return (struct report){ .say = request_say, .data = q };
+}
+
+void request_end(struct request *q)
+{
+	json_t *o = json_object();
+	json_set_int(o, "id", q->id);
+	if (q->st != ST_OK) {
+		json_set_text(o, "class", status_class(q->st));
+		json_set_text(o, "text", q->error ? q->error : status_text(q->st));
+	}
+	session_send(q->session, q->st == ST_OK ? MESSAGE_END : MESSAGE_ERROR, o);
+	q->ended = true;
+}
+
+void request_destroy(struct request *q)
+{
+	log_reader_destroy(q->log);
+	free(q->jobs);
+	free(q->group);
+	free(q->error);
+	free(q);
+}
+
+static void fail(struct request *q, enum status st, const char *text)
+{
+	struct report r = request_report(q);
+	report_error(&r, st, "%s", text);
+}
+
+/* Which jobs */
+
+static int by_id(const void *a, const void *b)
+{
+	int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
+	return (x > y) - (x < y);
+}
+
+static bool jobs_room(struct request *q, size_t n)
+{
+	q->jobs = calloc(n + 1, sizeof *q->jobs);
+	if (!q->jobs)
+		fail(q, ST_RESOURCE, "out of memory");
+	return q->jobs;
+}
+
+static bool select_named(struct request *q, const json_t *ids)
+{
+	struct report r = request_report(q);
+	if (!jobs_room(q, json_array_size(ids)))
+		return false;
+	for (size_t i = 0; i < json_array_size(ids); i++) {
+		int64_t id = json_integer_value(json_array_get(ids, i));
+		if (queue_find(queue_of(q), id))
+			q->jobs[q->n++] = id;
+		else
+			report_error(&r, ST_INPUT,
+			             "there is no job %lld; 'batten jobs --all' lists them",
+			             (long long)id);
+	}
+	qsort(q->jobs, (size_t)q->n, sizeof *q->jobs, by_id);
+	return true;
+}
+
+static bool in_group(const struct Stats *s, const char *group)
+{
+	return !group || (s->group && !strcmp(s->group, group));
+}
+
+/* Those of a group (NULL: all) that pass. */
+static bool select_where(struct request *q, const char *group,
+                         bool (*pass)(const struct Stats *s, const void *data), const void *data)
+{
+	struct queue *jobs = queue_of(q);
+	int n = queue_count(jobs);
+	bool met = !group;
+	if (!jobs_room(q, (size_t)n))
+		return false;
+	for (int i = 0; i < n; i++) {
+		const struct Stats *s = queue_at(jobs, i);
+		if (!in_group(s, group))
+			continue;
+		met = true;
+		if (!pass || pass(s, data))
+			q->jobs[q->n++] = s->id;
+	}
+	struct report r = request_report(q);
+	if (!met)
+		report_error(&r, ST_INPUT, "there is no group '%s'", group);
+	return met;
+}
+
+static bool pass_event(const struct Stats *s, const void *data)
+{
+	const enum job_event *event = data;
+	return job_can(s->state, *event);
+}
+
+static bool pass_recent(const struct Stats *s, const void *data)
+{
+	const double *date = data;
+	return !job_state_table[s->state].over || s->ended >= *date - HOUR_S;
+}
+
+static bool pass_unended(const struct Stats *s, const void *data)
+{
+	(void)data;
+	return !job_state_table[s->state].over;
+}
+
+static bool pass_over(const struct Stats *s, const void *data)
+{
+	(void)data;
+	return job_state_table[s->state].over;
+}
+
+/* States to come to */
+
+static bool is_over(enum job_state s)
+{
+	return job_state_table[s].over;
+}
+
+static bool is_stopped(enum job_state s)
+{
+	return s == JOB_SUSPENDED || is_over(s);
+}
+
+static bool is_any(enum job_state s)
+{
+	(void)s;
+	return true;
+}
+
+/* Requests */
+
+static void send_jobs(struct request *q)
+{
+	for (int i = 0; i < q->n; i++) {
+		const struct Stats *s = queue_find(queue_of(q), q->jobs[i]);
+		if (s)
+			session_send_job(q->session, q->id, s);
+	}
+}
+
+static void take_event(struct request *q, const struct request_row *row, const json_t *body)
+{
+	const json_t *ids = json_object_get(body, "jobs");
+	const char *group = json_text(body, "group", NULL);
+	struct report r = request_report(q);
+	bool named = json_is_array(ids);
+	if (!named && !group && !json_flag(body, "all", false)) {
+		fail(q, ST_PARAMETER, "no job is named");
+		request_end(q);
+		return;
+	}
+	if (named ? !select_named(q, ids) : !select_where(q, group, pass_event, &row->event)) {
+		request_end(q);
+		return;
+	}
+	int kept = 0;
+	for (int i = 0; i < q->n; i++)
+		if (queue_event(queue_of(q), q->jobs[i], row->event, json_text(body, "by", "you"),
+		                &r) == ST_OK)
+			q->jobs[kept++] = q->jobs[i];
+	q->n = kept;
+}
+
+static void take_priority(struct request *q, const struct request_row *row, const json_t *body)
+{
+	const json_t *ids = json_object_get(body, "jobs");
+	struct report r = request_report(q);
+	int64_t priority = json_int(body, "priority", 0);
+	(void)row;
+	if (priority < -1000000 || priority > 1000000)
+		report_error(&r, ST_PARAMETER, "priority is %lld, expected -1000000 to 1000000",
+		             (long long)priority);
+	else if (json_is_array(ids)
+	                 ? select_named(q, ids)
+	                 : select_where(q, json_text(body, "group", NULL), pass_unended, NULL)) {
+		for (int i = 0; i < q->n; i++)
+			queue_priority(queue_of(q), q->jobs[i], (int)priority, &r);
+	}
+}
+
+static void take_list(struct request *q, const struct request_row *row, const json_t *body)
+{
+	const json_t *ids = json_object_get(body, "jobs");
+	const struct clock *clock = &q->session->server->clock;
+	double now = clock->date(clock->data);
+	bool all = json_flag(body, "all", false);
+	(void)row;
+	if (json_is_array(ids))
+		select_named(q, ids);
+	else
+		select_where(q, json_text(body, "group", NULL), all ? NULL : pass_recent, &now);
+}
+
+/* WAIT is answered when all have ended; without a name it is for those there are now. */
+static void take_wait(struct request *q, const struct request_row *row, const json_t *body)
+{
+	const json_t *ids = json_object_get(body, "jobs");
+	const char *group = json_text(body, "group", NULL);
+	(void)row;
+	if (json_is_array(ids))
+		select_named(q, ids);
+	else
+		select_where(q, group, group ? NULL : pass_unended, NULL);
+}
+
+static void watch_all(struct request *q)
+{
+	struct queue *jobs = queue_of(q);
+	q->behind = false;
+	if (q->jobs) {
+		send_jobs(q);
+		return;
+	}
+	for (int i = 0; i < queue_count(jobs); i++) {
+		const struct Stats *s = queue_at(jobs, i);
+		if (in_group(s, q->group))
+			session_send_job(q->session, q->id, s);
+	}
+}
+
+static void take_watch(struct request *q, const struct request_row *row, const json_t *body)
+{
+	const json_t *ids = json_object_get(body, "jobs");
+	const char *group = json_text(body, "group", NULL);
+	(void)row;
+	q->stay = json_flag(body, "stay", false);
+	if (json_is_array(ids)) {
+		if (!select_named(q, ids) || q->error) {
+			request_end(q);
+			return;
+		}
+	} else if (group) {
+		q->group = strdup(group);
+	}
+	watch_all(q);
+}
+
+static void take_log(struct request *q, const struct request_row *row, const json_t *body)
+{
+	int64_t id = json_int(body, "job", 0);
+	const struct Stats *s = queue_find(queue_of(q), id);
+	struct report r = request_report(q);
+	(void)row;
+	if (!s) {
+		report_error(&r, ST_INPUT, "there is no job %lld; 'batten jobs --all' lists them",
+		             (long long)id);
+	} else if (jobs_room(q, 1)) {
+		q->jobs[q->n++] = id;
+		if (log_reader_create(q, s, json_flag(body, "follow", false)) != ST_OK)
+			fail(q, ST_RESOURCE, "out of memory");
+	}
+	if (q->error)
+		request_end(q);
+}
+
+static void take_shutdown(struct request *q, const struct request_row *row, const json_t *body)
+{
+	(void)row;
+	(void)body;
+	server_leave(q->session->server);
+}
+
+static void take_prune(struct request *q, const struct request_row *row, const json_t *body)
+{
+	struct report r = request_report(q);
+	(void)row;
+	(void)body;
+	if (select_where(q, NULL, pass_over, NULL)) {
+		send_jobs(q);
+		if (queue_forget(queue_of(q), q->jobs, q->n, &r) == ST_OK)
+			prune_files(q->session->server->project, queue_of(q));
+	}
+	request_end(q);
+}
+
+/* Submitting */
+
+struct batch {
+	struct Stats *jobs; /* owned */
+	int n, cap;
+};
+
+static enum status batch_add(struct batch *b, const json_t *o, const struct report *r)
+{
+	if (b->n == b->cap) {
+		int cap = b->cap ? 2 * b->cap : 16;
+		struct Stats *p = realloc(b->jobs, (size_t)cap * sizeof *p);
+		if (!p)
+			return report_error(r, ST_RESOURCE, "cannot submit: out of memory");
+		b->jobs = p;
+		b->cap = cap;
+	}
+	enum status st = stats_from_json(&b->jobs[b->n], o);
+	if (st != ST_OK)
+		return report_error(r, st == ST_INPUT ? ST_PARAMETER : st,
+		                    "cannot submit job %d of the request: %s", b->n + 1,
+		                    st == ST_INPUT ? "it is no job" : "out of memory");
+	b->n++;
+	return ST_OK;
+}
+
+static enum status batch_add_file(struct batch *b, const char *path, const struct report *r)
+{
+	char *text;
+	size_t n;
+	enum status st = file_read(path, JOBS_FILE_MAX, &text, &n, r);
+	if (st != ST_OK)
+		return st;
+	json_t *o = json_loadb(text, n, 0, NULL);
+	free(text);
+	if (json_is_array(o))
+		for (size_t i = 0; i < json_array_size(o) && st == ST_OK; i++)
+			st = batch_add(b, json_array_get(o, i), r);
+	else if (o)
+		st = batch_add(b, o, r);
+	else
+		st = report_error(r, ST_INPUT, "cannot read jobs from '%s': it is no JSON", path);
+	json_decref(o);
+	return st;
+}
+
+static void take_submit(struct request *q, const struct request_row *row, const json_t *body)
+{
+	const json_t *jobs = json_object_get(body, "jobs");
+	struct report r = request_report(q);
+	struct batch b = { 0 };
+	int64_t first = 0;
+	enum status st = ST_OK;
+	(void)row;
+	for (size_t i = 0; i < json_array_size(jobs) && st == ST_OK; i++) {
+		const json_t *o = json_array_get(jobs, i);
+		st = json_is_string(o) ? batch_add_file(&b, json_string_value(o), &r)
+		                       : batch_add(&b, o, &r);
+	}
+	if (st == ST_OK && !b.n)
+		st = report_error(&r, ST_PARAMETER, "no job is given");
+	if (st == ST_OK)
+		st = queue_submit(queue_of(q), b.jobs, b.n, &first, &r);
+	if (st == ST_OK && jobs_room(q, (size_t)b.n))
+		for (int i = 0; i < b.n; i++)
+			q->jobs[q->n++] = first + i;
+	for (int i = 0; i < b.n; i++)
+		stats_finish(&b.jobs[i]);
+	free(b.jobs);
+	if (q->error || st != ST_OK)
+		request_end(q);
+}
+
+static const struct request_row rows[] = {
+	{ MESSAGE_SUBMIT, take_submit, N_JOB_EVENTS, is_any },
+	{ MESSAGE_LIST, take_list, N_JOB_EVENTS, is_any },
+	{ MESSAGE_WATCH, take_watch, N_JOB_EVENTS, is_over },
+	{ MESSAGE_SUSPEND, take_event, EV_SUSPEND, is_stopped },
+	{ MESSAGE_ACTIVATE, take_event, EV_ACTIVATE, is_any },
+	{ MESSAGE_KILL, take_event, EV_KILL, is_over },
+	{ MESSAGE_HOLD, take_event, EV_HOLD, is_any },
+	{ MESSAGE_RELEASE, take_event, EV_RELEASE, is_any },
+	{ MESSAGE_RETRY, take_event, EV_RETRY, is_any },
+	{ MESSAGE_PRIORITY, take_priority, N_JOB_EVENTS, is_any },
+	{ MESSAGE_WAIT, take_wait, N_JOB_EVENTS, is_over },
+	{ MESSAGE_LOG, take_log, N_JOB_EVENTS, is_over },
+	{ MESSAGE_SHUTDOWN, take_shutdown, N_JOB_EVENTS, NULL },
+	{ MESSAGE_PRUNE, take_prune, N_JOB_EVENTS, NULL },
+};
+
+static const struct request_row *row_find(enum message_type type)
+{
+	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+		if (rows[i].type == type)
+			return &rows[i];
+	return NULL;
+}
+
+/* The queue takes its turn first, so that an answer holds only what is in the ledger. */
+void request_take(struct session *c, const struct message *m)
+{
+	const struct request_row *row = row_find(m->type);
+	struct request *q = row ? calloc(1, sizeof *q) : NULL;
+	if (!q)
+		return;
+	q->session = c;
+	q->type = m->type;
+	q->id = json_int(m->body, "id", 0);
+	q->next = c->requests;
+	c->requests = q;
+	queue_turn(c->server->queue);
+	row->take(q, row, m->body);
+}
+
+static bool request_names(const struct request *q, const struct Stats *s)
+{
+	if (!q->jobs)
+		return in_group(s, q->group);
+	return bsearch(&s->id, q->jobs, (size_t)q->n, sizeof *q->jobs, by_id);
+}
+
+void request_told(struct request *q, const struct Stats *s)
+{
+	if (q->ended || q->type != MESSAGE_WATCH || !request_names(q, s))
+		return;
+	if (session_backlog(q->session) > BACKLOG_FULL)
+		q->behind = true;
+	else
+		session_send_job(q->session, q->id, s);
+}
+
+/* Have all jobs come to the state that is wanted? What was passed once is not looked at again. */
+static bool request_met(struct request *q, const struct request_row *row)
+{
+	struct queue *jobs = queue_of(q);
+	if (q->type == MESSAGE_WATCH && q->stay)
+		return false;
+	for (; q->jobs && q->at < q->n; q->at++) {
+		const struct Stats *s = queue_find(jobs, q->jobs[q->at]);
+		if (s && !row->wanted(s->state))
+			return false;
+	}
+	for (int i = 0; !q->jobs && i < queue_count(jobs); i++) {
+		const struct Stats *s = queue_at(jobs, i);
+		if (in_group(s, q->group) && !row->wanted(s->state))
+			return false;
+	}
+	return true;
+}
+
+void request_check(struct request *q)
+{
+	const struct request_row *row = row_find(q->type);
+	const char *fault = queue_fault(queue_of(q));
+	if (q->ended || !row->wanted)
+		return;
+	if (q->type == MESSAGE_WATCH && q->behind && session_backlog(q->session) < BACKLOG_FULL / 2)
+		watch_all(q);
+	if (q->log) {
+		log_reader_more(q);
+		return;
+	}
+	if (fault && row->event != N_JOB_EVENTS) {
+		struct report r = request_report(q);
+		report_error(&r, ST_RESOURCE,
+		             "it was done, but the ledger does not take it: %s; make room, the "
+		             "service tries again each second",
+		             fault);
+	} else if (q->behind || !request_met(q, row)) {
+		return;
+	}
+	if (q->type != MESSAGE_WATCH)
+		send_jobs(q);
+	request_end(q);
+}
