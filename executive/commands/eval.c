@@ -1,5 +1,6 @@
 /* eval.c - points, derivatives, normal and curvatures at given parameters. */
 #include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -162,14 +163,19 @@ static enum status choose_targets(struct targets *x, const struct model *m,
 	            : report_error(r, ST_INPUT, "'%s' has no surface and no curve", m->file);
 }
 
-static enum status check_inside(const struct entity *e, const char *name, const double domain[2],
-                                double x, const struct report *r)
+/* *x must lie in the domain; beyond it by rounding alone, it is moved to the end. */
+static enum status bring_inside(const struct entity *e, const char *name, const double domain[2],
+                                double *x, const struct report *r)
 {
-	if (x >= domain[0] && x <= domain[1])
-		return ST_OK;
-	return report_error(r, ST_PARAMETER,
-	                    "%s = %.17g is outside the domain of %s %d, %.17g to %.17g", name, x,
-	                    entity_kind_name(e->kind), e->number, domain[0], domain[1]);
+	double slack = 8 * DBL_EPSILON * fmax(fabs(domain[0]), fabs(domain[1]));
+
+	if (!(*x >= domain[0] - slack && *x <= domain[1] + slack))
+		return report_error(r, ST_PARAMETER,
+		                    "%s = %.17g is outside the domain of %s %d, %.17g to %.17g",
+		                    name, *x, entity_kind_name(e->kind), e->number, domain[0],
+		                    domain[1]);
+	*x = fmin(fmax(*x, domain[0]), domain[1]);
+	return ST_OK;
 }
 
 static enum status answer(struct answers *a, const struct targets *x, const double *p,
@@ -179,15 +185,17 @@ static enum status answer(struct answers *a, const struct targets *x, const doub
 		const struct entity *e = x->entities[k];
 		enum status st;
 		if (e->kind == ENTITY_SURFACE) {
-			st = check_inside(e, "u", e->geometry.domain[0], p[0], r);
+			double u = p[0], v = p[1];
+			st = bring_inside(e, "u", e->geometry.domain[0], &u, r);
 			if (st == ST_OK)
-				st = check_inside(e, "v", e->geometry.domain[1], p[1], r);
+				st = bring_inside(e, "v", e->geometry.domain[1], &v, r);
 			if (st == ST_OK)
-				answer_surface(a, e, p[0], p[1]);
+				answer_surface(a, e, u, v);
 		} else {
-			st = check_inside(e, "t", e->curve.domain, p[0], r);
+			double t = p[0];
+			st = bring_inside(e, "t", e->curve.domain, &t, r);
 			if (st == ST_OK)
-				answer_curve(a, e, p[0]);
+				answer_curve(a, e, t);
 		}
 		if (st != ST_OK)
 			return st;
