@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Spans narrower than this part of the domain are not meant. */
+static const double narrow_share = 1e-9;
+
 /* Right-handed rows of unit vectors, the last along d. */
 static void frame_make(struct vec3 d, double frame[3][3])
 {
@@ -33,6 +36,40 @@ static void surface_destroy(struct level_surface *s)
 	free(s);
 }
 
+/*
+ * Take out spans so narrow that their patches are rounding (a domain that misses its knot by 1e-15).
+ * What is left is moved together; breaks keep the ends of the domain.
+ */
+static void net_clean(struct bezier_net *net)
+{
+	int kept[2] = { 0, 0 }, spans[2] = { net->spans[0], net->spans[1] };
+	size_t size = bezier_patch_size(net), at = 0;
+	double width[2], end[2];
+	for (int d = 0; d < 2; d++) {
+		end[d] = net->breaks[d][spans[d]];
+		width[d] = narrow_share * (end[d] - net->breaks[d][0]);
+	}
+	for (int i = 0; i < spans[0]; i++) {
+		if (net->breaks[0][i + 1] - net->breaks[0][i] <= width[0])
+			continue;
+		for (int j = 0; j < spans[1]; j++)
+			if (net->breaks[1][j + 1] - net->breaks[1][j] > width[1])
+				memmove(net->points + size * at++,
+				        net->points + size * ((size_t)i * spans[1] + j),
+				        size * sizeof(double));
+	}
+	for (int d = 0; d < 2; d++) {
+		double *b = net->breaks[d];
+		for (int i = 0; i < spans[d]; i++)
+			if (b[i + 1] - b[i] > width[d]) {
+				double from = kept[d] > 0 ? b[i] : b[0];
+				b[kept[d]++] = from;
+			}
+		b[kept[d]] = end[d];
+		net->spans[d] = kept[d];
+	}
+}
+
 static double *binomial_make(int n)
 {
 	double *b = malloc(sizeof *b * (n + 1) * (n + 2) / 2);
@@ -54,6 +91,7 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 	enum status st = bezier_net_init(&s->net, from);
 	if (st != ST_OK)
 		goto fail;
+	net_clean(&s->net);
 	s->kind = field->kind;
 	frame_make(field->direction, s->frame);
 	int factors = s->net.rational ? 3 : 2, highest = 0;

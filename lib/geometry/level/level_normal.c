@@ -15,6 +15,9 @@
 
 enum { X = 0, U = 4, V = 8, FORMS = 12, EDGE_SAMPLES = 7 };
 
+/* Patches that differ by less where they meet, as a part of the size, do meet. */
+#define GAP_SHARE 1e-7
+
 struct maker {
 	const struct level_surface *s;
 	double center[3];
@@ -232,10 +235,11 @@ static enum edge_kind edge_between(struct level_surface *s, int lower, int upper
 	double most;
 	struct side a = side_of(net->points + size * lower, degree, d, true);
 	struct side b = side_of(net->points + size * upper, degree, d, false);
-	if (side_difference(&a, &b, &most) > 1e-9 * fmax(net->size, most))
+	double gap = side_difference(&a, &b, &most);
+	if (gap > GAP_SHARE * fmax(net->size, most))
 		return EDGE_CREASE;
 	if (s->kind == LEVEL_PLANE)
-		return EDGE_SHARED;
+		return gap == 0 ? EDGE_SHARED : EDGE_SMOOTH;
 	a = side_of(s->normals + level_normals_size(s) * lower, s->degree, d, true);
 	b = side_of(s->normals + level_normals_size(s) * upper, s->degree, d, false);
 	if (side_difference(&a, &b, &most) <= 1e-10 * most) {
