@@ -275,6 +275,7 @@ static void test_full_disk(void **state)
 	assert_int_equal(count_files(), 4);
 }
 
+/* The sanitizer's own shadow would not fit a limit; it has one of its own. */
 #if defined(__SANITIZE_ADDRESS__)
 #define ADDRESS_SPACE_IS_TAKEN 1
 #elif defined(__has_feature)
@@ -287,12 +288,16 @@ static void test_memory(void **state)
 {
 	(void)state;
 #ifdef ADDRESS_SPACE_IS_TAKEN
-	skip();
+	int resource = 0, limit = 0;
+	setenv("ASAN_OPTIONS", "allocator_may_return_null=1:max_allocation_size_mb=500", 1);
+#else
+	int resource = RLIMIT_AS, limit = 600 << 20;
 #endif
-	expect(run_limited(RLIMIT_AS, 600ul << 20, probe, "one.base", "--bytes", "1000000000",
-	                   "--threads", "2", NULL),
+	expect(run_limited(resource, (unsigned long)limit, probe, "one.base", "--bytes",
+	                   "1000000000", "--threads", "2", NULL),
 	       1, "", "memory ran out while computing");
 	assert_int_equal(count_files(), 2);
+	unsetenv("ASAN_OPTIONS");
 }
 
 static void test_description(void **state)

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 static char *probe;
+static const char *document;
 
 static int enter(void **state)
 {
@@ -317,10 +318,60 @@ static void test_bad_jobs(void **state)
 	expect_error(&p, "input", "no\xc3\xa4/such.json", 1);
 }
 
+/* The indented lines behind that heading of docs/packets.md are a worker, and a good one. */
+static void test_python_worker(void **state)
+{
+	(void)state;
+	static const char python[] = "/usr/bin/python3";
+	struct peer p;
+	struct text script = { 0 };
+	size_t n;
+	if (!there(python))
+		return;
+	char *page = slurp(document, &n);
+	char *line = strstr(page, "## A worker in another language");
+	assert_non_null(line);
+	while ((line = strchr(line, '\n')) && strncmp(++line, "## ", 3) != 0)
+		if (strncmp(line, "    ", 4) == 0)
+			text_addf(&script, "%.*s\n", (int)strcspn(line + 4, "\n"), line + 4);
+		else
+			text_add(&script, "\n");
+	spill("count.py", script.s);
+	text_finish(&script);
+	free(page);
+
+	struct ran r = run_hand(python, "count.py", "--describe", NULL);
+	json_t *o = json_loads(r.out, 0, NULL);
+	assert_string_equal(json_string_value(json_object_get(o, "name")), "count");
+	json_decref(o);
+	ran_finish(&r);
+	write_job("7.json", "count", "one.base", "out", "7.part", "\"scale\":\"2\"", "");
+	peer_start(&p, python, "count.py", NULL);
+	peer_send(&p, MESSAGE_START, "job", "7.json");
+	assert_true(peer_next(&p));
+	assert_int_equal(p.last.type, MESSAGE_HELLO);
+	assert_true(peer_next(&p));
+	assert_int_equal(p.last.type, MESSAGE_RESULT);
+	assert_true(peer_next(&p));
+	assert_int_equal(p.last.type, MESSAGE_DONE);
+	assert_int_equal(peer_end(&p), 0);
+	char *input = slurp("one.base", &n), *count;
+	size_t n_input = n;
+	count = slurp("out.count.txt", &n);
+	assert_int_equal(atol(count), 2 * n_input);
+	free(input);
+	free(count);
+	write_job("7.json", "count", "nix.base", "out", "7.part", "", "");
+	peer_start(&p, python, "count.py", NULL);
+	peer_send(&p, MESSAGE_START, "job", "7.json");
+	expect_error(&p, "input", "nix.base", 1);
+}
+
 int main(int argc, char **argv)
 {
-	if (argc < 2)
+	if (argc < 4)
 		return 1;
+	document = argv[3];
 	probe = realpath(argv[1], NULL); /* the tests change folders */
 	signal(SIGPIPE, SIG_IGN);
 	const struct CMUnitTest tests[] = {
@@ -332,6 +383,7 @@ int main(int argc, char **argv)
 		cmocka_unit_test_setup_teardown(test_progress_on_continue, enter, leave),
 		cmocka_unit_test_setup_teardown(test_bad_packets, enter, leave),
 		cmocka_unit_test_setup_teardown(test_bad_jobs, enter, leave),
+		cmocka_unit_test_setup_teardown(test_python_worker, enter, leave),
 	};
 	int failed = cmocka_run_group_tests_name("worker and packets", tests, NULL, NULL);
 	free(probe);
