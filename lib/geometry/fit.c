@@ -290,7 +290,7 @@ enum status fit_surface(struct surface *out, const struct vec3 *p, int nu, int n
 }
 
 enum status fit_loft(struct surface *out, const struct curve *sections, int n, int order_v,
-                     const struct report *r)
+                     enum fit_parameters how, const struct report *r)
 {
 	enum status st = check_order(order_v, n, "sections", r);
 	if (st != ST_OK)
@@ -318,7 +318,7 @@ enum status fit_loft(struct surface *out, const struct curve *sections, int n, i
 	set_knots(&s, 0, first->knots, first->domain[0], first->domain[1]);
 	s.rational = rational;
 	struct collocation c = { 0 };
-	st = net_collocation(&c, &s, 1, FIT_CHORD, r);
+	st = net_collocation(&c, &s, 1, how, r);
 	if (st == ST_OK)
 		st = net_solve(&c, s.points, s.n, 1);
 	if (st == ST_OK)

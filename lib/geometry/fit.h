@@ -22,6 +22,6 @@ enum status fit_surface(struct surface *out, const struct vec3 *p, int nu, int n
 /* Surface through curves that have the same order and knots (skinning), v across the curves.
  * Source: The NURBS Book, section 10.3. */
 enum status fit_loft(struct surface *out, const struct curve *sections, int n, int order_v,
-                     const struct report *r);
+                     enum fit_parameters how, const struct report *r);
 
 #endif

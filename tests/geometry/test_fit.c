@@ -144,7 +144,7 @@ static void test_loft(void **state)
 			                                              { 0, 1, 0, 0 },
 			                                              { 0, 0, 1, i } });
 		}
-		assert_int_equal(fit_loft(&s, sections, 6, 4, NULL), ST_OK);
+		assert_int_equal(fit_loft(&s, sections, 6, 4, FIT_CHORD, NULL), ST_OK);
 		assert_int_equal(surface_check(&s, "loft", NULL), ST_OK);
 		assert_true(s.rational == (bool)rational);
 		/* equal steps: section i lies at i / 5 */
@@ -184,7 +184,7 @@ static void test_refuses(void **state)
 	assert_int_equal(make_line(&two[0], vec3(0, 0, 0), vec3(1, 0, 0)), ST_OK);
 	assert_int_equal(make_arc(&two[1], vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0), 1, 0, 1),
 	                 ST_OK);
-	assert_int_equal(fit_loft(&s, two, 2, 2, &said.report), ST_PARAMETER);
+	assert_int_equal(fit_loft(&s, two, 2, 2, FIT_CHORD, &said.report), ST_PARAMETER);
 	assert_non_null(strstr(said.error, "section 2"));
 	curve_finish(&two[0]);
 	curve_finish(&two[1]);
