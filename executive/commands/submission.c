@@ -232,9 +232,7 @@ static enum status send_jobs(const struct submission *s, struct connection *c, j
 
 static bool is_scene(const struct submission *s)
 {
-	const json_t *inputs = json_object_get(s->worker->description, "inputs");
-
-	return json_flag(inputs, "scene", false);
+	return json_flag(s->worker->description, "scene", false);
 }
 
 static enum status make_jobs(const struct submission *s, struct connection *c,
