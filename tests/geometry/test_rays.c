@@ -252,7 +252,11 @@ static void orders_and_knots(void **state)
 			           shape_random(&seed) * (s.domain[0][1] - s.domain[0][0]);
 			double v = s.domain[1][0] +
 			           shape_random(&seed) * (s.domain[1][1] - s.domain[1][0]);
-			struct vec3 p = surface_point(&s, u, v), d = random_direction(&seed);
+			struct vec3 p, du, dv, d = random_direction(&seed);
+
+			surface_tangents(&s, u, v, &p, &du, &dv);
+			if (fabs(vec3_dot(vec3_unit(vec3_cross(du, dv)), d)) < 1e-3)
+				continue; /* along the surface: two hits are as good as one */
 			struct ray r = { vec3_along(p, -2 * size, d), d, 0, INFINITY };
 			struct ray_hit h = trace_one(scene, r);
 

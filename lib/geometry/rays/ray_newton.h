@@ -53,9 +53,10 @@ INLINE void node_evaluate(const vf *f, vf s, vf t, vf *value, vf *ds, vf *dt)
 /* What the iteration leaves of a lane. */
 struct newton {
 	vf s, t;
-	vf unsure; /* how far s and t may still be off, together */
-	vi found;  /* in the node, or so near that rounding decides */
-	vi stuck;  /* neither found nor gone */
+	vf reach_s, reach_t; /* no solution in the node can send the iteration beyond these */
+	vf unsure;           /* how far s and t may still be off, together */
+	vi found;            /* in the node, or so near that rounding decides */
+	vi stuck;            /* neither found nor gone */
 };
 
 /* fold: the Jacobian may vanish; steps are then kept short and there are more of them. */
@@ -87,7 +88,7 @@ INLINE void node_newton(const struct node *n, float error, bool fold, vi live, s
 
 		s = pick(move, s + ds, s);
 		t = pick(move, t + dt, t);
-		live &= (size(s) < 3) & (size(t) < 3);
+		live &= (size(s) < x->reach_s) & (size(t) < x->reach_t);
 		vf left = size(ds) + size(dt);
 		vi ends = live & ((left < 2e-4f) | there);
 		if (any(ends)) {
@@ -205,11 +206,16 @@ static __attribute__((noinline)) vi node_fold(const struct leaf_call *c, const s
 	vf s1 = n->f1[4], t1 = n->f1[1], s2 = n->f2[4], t2 = n->f2[1];
 	vi second = size(s2) + size(t2) > size(s1) + size(t1);
 	vf s = pick(second, t2, t1), t = -pick(second, s2, s1);
-	vf scale = 0.8f / (larger(size(s), size(t)) + 1e-30f);
+	vf scale = 1 / (larger(size(s), size(t)) + 1e-30f);
 	vi hit = act & ~act;
 
-	for (int side = -1; side <= 1; side += 2) {
-		struct newton x = { .s = (float)side * scale * s, .t = (float)side * scale * t };
+	for (int k = 0; k < 6; k++) {
+		/* then the corners: the fold may be curved */
+		float side = k % 2 ? 0.8f : -0.8f;
+		struct newton x = { .reach_s = fill(3), .reach_t = fill(3) };
+
+		x.s = k < 2 ? side * scale * s : fill(side);
+		x.t = k < 2 ? side * scale * t : fill(k < 4 ? side : -side);
 
 		node_newton(n, c->l->error, true, act, &x);
 		if (any(x.found))
@@ -248,7 +254,13 @@ static __attribute__((noinline)) vi node_trace(const struct leaf_call *c, const 
 	if (any(solve)) {
 		vf inverse = det / (det * det + 1e-30f), s = ns * inverse, t = nt * inverse;
 		vi far = (size(s) > 1.2f) | (size(t) > 1.2f);
-		struct newton x = { .s = pick(far, fill(0), s), .t = pick(far, fill(0), t) };
+		/* thin curved leaves: the first step may go many widths aside and come back */
+		struct newton x = {
+			.s = pick(far, fill(0), s),
+			.t = pick(far, fill(0), t),
+			.reach_s = 3 + 2 * (size(t2) * rest1 + size(t1) * rest2) * size(inverse),
+			.reach_t = 3 + 2 * (size(s2) * rest1 + size(s1) * rest2) * size(inverse),
+		};
 
 		if (n->depth < QUARTERINGS) {
 			node_newton(n, error, false, solve, &x);
