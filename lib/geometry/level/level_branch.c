@@ -209,7 +209,16 @@ static void end_close(struct curve *c, bool uv_too)
 		memcpy(c->points + 4 * (c->n - 1), c->points, sizeof(double[4]));
 }
 
-static enum status curves_make(const struct span *s, size_t n, double size, bool closed,
+/* Over a seam whose sides are a little apart the space curve goes on where it was; returns by how
+ * much it is moved. */
+static double seam_close(const struct piece *before, struct piece *p)
+{
+	double gap = distance(before->p[1], p->p[0]);
+	memcpy(p->p[0], before->p[1], sizeof p->p[0]);
+	return gap;
+}
+
+static enum status curves_make(struct span *s, size_t n, double size, bool closed,
                                struct level_branch *out)
 {
 	int cuts = 0;
@@ -223,7 +232,7 @@ static enum status curves_make(const struct span *s, size_t n, double size, bool
 	double t = 0;
 	int point = 0, knot = knots_put(&out->uv, 0, 0, 4);
 	for (size_t i = 0; i < n; i++) {
-		const struct piece *p = &s[i].piece;
+		struct piece *p = &s[i].piece;
 		double uv[2][3], duv[2][3], length = piece_length(p);
 		for (int e = 0; e < 2; e++)
 			for (int d = 0; d < 2; d++) {
@@ -232,6 +241,8 @@ static enum status curves_make(const struct span *s, size_t n, double size, bool
 			}
 		if (i > 0)
 			knot = knots_put(&out->uv, knot, t, s[i].cut ? 4 : 3);
+		if (s[i].cut)
+			out->max_error = fmax(out->max_error, seam_close(&s[i - 1].piece, p));
 		span_put(&out->uv, point, uv, duv, 2, i == 0 || s[i].cut);
 		point = span_put(&out->space, point, p->p, p->dp, 3, i == 0 || s[i].cut);
 		/* parameters must rise even where the curve stands still */

@@ -15,8 +15,9 @@
 
 enum { X = 0, U = 4, V = 8, FORMS = 12, EDGE_SAMPLES = 7 };
 
-/* Patches that differ by less where they meet, as a part of the size, do meet. */
-#define GAP_SHARE 1e-7
+/* Borders that differ by less, as a part of the size, do meet: what files with seven digits keep of
+ * a closed surface. */
+#define GAP_SHARE 1e-6
 
 struct maker {
 	const struct level_surface *s;
@@ -265,6 +266,25 @@ static enum edge_kind edge_outside(const struct level_surface *s, int patch, int
 	return EDGE_POLE;
 }
 
+/* The two ends of direction d meet, if not as nearly as the net asks for. */
+static bool ends_meet(const struct level_surface *s, int d)
+{
+	const struct bezier_net *net = &s->net;
+	int degree[2] = { net->order[0] - 1, net->order[1] - 1 };
+	size_t size = bezier_patch_size(net);
+	int lines = net->spans[d], across = net->spans[1 - d];
+	double most;
+	for (int a = 0; a < across; a++) {
+		int last = d == 0 ? (lines - 1) * across + a : a * lines + lines - 1;
+		int first = d == 0 ? a : a * lines;
+		struct side x = side_of(net->points + size * last, degree, d, true);
+		struct side y = side_of(net->points + size * first, degree, d, false);
+		if (side_difference(&x, &y, &most) > GAP_SHARE * fmax(net->size, most))
+			return false;
+	}
+	return true;
+}
+
 /*
  * Say what every edge is, and make shared sides equal: first over all lines of u, then of v, each
  * from the lower patch to the upper, so that all patches round a corner have the same number there.
@@ -274,6 +294,7 @@ void level_edges(struct level_surface *s)
 	const struct bezier_net *net = &s->net;
 	for (int d = 0; d < 2; d++) {
 		int lines = net->spans[d], across = net->spans[1 - d];
+		s->net.closed[d] = net->closed[d] || ends_meet(s, d);
 		for (int line = 0; line <= lines; line++)
 			for (int a = 0; a < across; a++) {
 				int lower = line > 0 ? line - 1 : lines - 1;
