@@ -77,7 +77,7 @@ def test_points_derivatives_and_curvatures(project):
             surfaces += check_surface(project, path, s)
         for c in reference.get("raw126", []):
             curves += check_curve(project, path, c)
-    assert surfaces > 1000 and curves > 200, (surfaces, curves)
+    assert surfaces >= 700 and curves >= 390, (surfaces, curves)
 
 
 def test_units_domains_and_nets(project):
