@@ -235,6 +235,21 @@ static bool is_scene(const struct submission *s)
 	return json_flag(s->worker->description, "scene", false);
 }
 
+/* Results of files of one name in different folders would overwrite each other. */
+static enum status check_names(const struct submission *s, size_t each)
+{
+	for (size_t a = 0; a < s->n_inputs && each < s->n_inputs; a++)
+		for (size_t b = 0; b < a; b++)
+			if (strcmp(s->inputs[a].path, s->inputs[b].path) &&
+			    !strcmp(s->inputs[a].name, s->inputs[b].name))
+				return report_error(
+				        &s->i->report, ST_PARAMETER,
+				        "results of '%s' and '%s' would have the same names; submit "
+				        "them one by one with -o",
+				        s->inputs[b].path, s->inputs[a].path);
+	return ST_OK;
+}
+
 static enum status make_jobs(const struct submission *s, struct connection *c,
                              struct job_list *list)
 {
@@ -249,8 +264,10 @@ static enum status make_jobs(const struct submission *s, struct connection *c,
 		own = base ? text_print("%s-%s", base, s->worker->name) : NULL;
 		free(base);
 	}
+	st = check_names(s, each);
 	for (size_t k = 0; k < s->n_inputs && st == ST_OK; k += each) {
-		bool numbered = each == 1 && (s->n_inputs > 1 || !s->inputs[k].alone);
+		bool given_name = invocation_value(s->i, "--output") != NULL;
+		bool numbered = each < s->n_inputs && (given_name || !s->inputs[k].alone);
 		json_t *job = make_job(s, given ? given : own, k, each, numbered);
 		char *text = job ? json_write(job, false) : NULL;
 		size_t size = text ? strlen(text) : 0;
