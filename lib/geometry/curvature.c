@@ -42,7 +42,7 @@ static void values_set(struct surface_shape *out, const struct form_values *f)
 	out->value[QUANTITY_NORMAL_V] = f->normal_v;
 }
 
-static void pole_take(struct surface_shape *out, const struct pole *p)
+void shape_from_pole(struct surface_shape *out, const struct pole *p)
 {
 	struct form_values f = {
 		.gaussian = p->value[POLE_GAUSSIAN],
@@ -90,11 +90,11 @@ void surface_shape(const struct surface *s, double u, double v, struct surface_s
 		if (scale.none || !(area > pole_degenerate * scale.area)) {
 			out->limit = true;
 			pole_limits(s, u, v, &scale, &p);
-			pole_take(out, &p);
+			shape_from_pole(out, &p);
 			return;
 		}
 		if (!(area > pole_near * scale.area) && pole_beside(s, u, v, area, &scale, &p)) {
-			pole_take(out, &p);
+			shape_from_pole(out, &p);
 			return;
 		}
 	}

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "surface.h"
+#include "curvature.h"
 
 enum {
 	POLE_MEAN,
@@ -53,5 +53,8 @@ void pole_limits(const struct surface *s, double u, double v, const struct pole_
  */
 bool pole_beside(const struct surface *s, double u, double v, double area,
                  const struct pole_scale *scale, struct pole *out);
+
+/* Normal and all quantities of *out from limits. */
+void shape_from_pole(struct surface_shape *out, const struct pole *p);
 
 #endif
