@@ -9,6 +9,9 @@
 		((hex) >> 16 & 255) / 255.0, ((hex) >> 8 & 255) / 255.0, ((hex)&255) / 255.0       \
 	}
 
+/* Two thirds of the area in a tenth of the colors: of a normal distribution there are a sixth. */
+static const double crowd_width = 0.1, crowd_share = 2 / 3.0;
+
 /* Lightness is symmetric about zero in the signed map and rises steadily in the other, for readers
  * of all kinds of color vision. */
 static const struct scheme {
@@ -221,8 +224,9 @@ enum status colormap_fit(struct colormap *m, bool is_signed, enum colormap_scale
 	if (n) {
 		bool constant = set_range(m, s, n, rounding);
 		double reach = fmax(fabs(m->lo), fabs(m->hi));
-		m->arsinh = scale == COLORMAP_ARSINH || (scale == COLORMAP_AUTOMATIC && !constant &&
-		                                         crowded(s, n, 0.1 * (m->hi - m->lo), 0.9));
+		m->arsinh = scale == COLORMAP_ARSINH ||
+		            (scale == COLORMAP_AUTOMATIC && !constant &&
+		             crowded(s, n, crowd_width * (m->hi - m->lo), crowd_share));
 		double knee = fmin(fmax(median_size(s, n), 1e-4 * reach), 0.2 * reach);
 		m->knee = round_up(knee);
 	}

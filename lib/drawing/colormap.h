@@ -25,7 +25,7 @@ struct colormap {
  * Range from the values: 2 to 98 % of the finite ones, weights (may be NULL) their areas; symmetric
  * if signed, from 0 where an unsigned one begins within 5 % of it. A value that is the same everywhere lies well inside its range. Values below `rounding`
  * (same unit; 0: unknown) are zero but for rounding, and the range does not fall below it.
- * The automatic scale is arsinh where the 2-98 % range hides nine tenths of the values in a tenth of
+ * The automatic scale is arsinh where the 2-98 % range hides two thirds of the values in a tenth of
  * the colors. Errors: ST_RESOURCE, and *m is the map from 0 to 1.
  */
 enum status colormap_fit(struct colormap *m, bool is_signed, enum colormap_scale scale,

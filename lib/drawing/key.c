@@ -6,7 +6,16 @@
 
 #include "ticks.h"
 
-enum { BAR = 14, TRIANGLE = 9, GAP = 3, LINE = 16, HEAD = 38, WORDS_MAX = 6, WORD_SIZE = 128 };
+enum {
+	BAR = 14,
+	TRIANGLE = 9,
+	GAP = 3,
+	LINE = 16,
+	SPACE = 16,
+	HEAD = 42,
+	WORDS_MAX = 6,
+	WORD_SIZE = 128
+};
 
 struct words {
 	int n;
@@ -52,7 +61,7 @@ double key_height(const struct key *k)
 {
 	struct words w;
 	describe(&w, k);
-	return HEAD + 2 * (TRIANGLE + GAP) + k->bar + 12 + LINE * (w.n + k->nothing);
+	return HEAD + 2 * (TRIANGLE + GAP) + k->bar + SPACE + LINE * (w.n + k->nothing);
 }
 
 double key_width(cairo_t *cr, const struct key *k)
@@ -109,7 +118,7 @@ static void draw_beyond(cairo_t *cr, const struct key *k, double x, double y, do
 		char text[TICK_TEXT];
 		share_text(text, share);
 		label_draw(cr, LABEL_NOTE, theme_color(k->theme, TOKEN_MUTED), x + BAR + 10,
-		           label_baseline(LABEL_NOTE, y + tip / 2), 0, text);
+		           label_baseline(LABEL_NOTE, y + tip + (tip < 0 ? -4 : 4)), 0, text);
 	}
 }
 
@@ -157,7 +166,7 @@ void key_draw(cairo_t *cr, const struct key *k, double x, double y)
 	draw_ticks(cr, k, x, y);
 	y += k->bar + GAP;
 	draw_beyond(cr, k, x, y, TRIANGLE, colormap_below(&k->map), k->below);
-	y += TRIANGLE + 12;
+	y += TRIANGLE + SPACE;
 	for (int i = 0; i < w.n; i++)
 		label_draw(cr, LABEL_NOTE, theme_color(k->theme, TOKEN_MUTED), x, y + LINE * i + 11,
 		           0, w.line[i]);

@@ -1,0 +1,327 @@
+/* curvature.c - curvatures of a surface on a grid of its parameters, and seen from a camera. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "curvature_survey.h"
+#include "curvature_view.h"
+#include "grid.h"
+#include "json.h"
+#include "number.h"
+
+enum {
+	TILE = 64,
+	PICTURE_SIDE_MAX = 16384,
+	ALL_QUANTITIES = (1 << N_QUANTITIES) - 1,
+};
+
+struct state {
+	int nu, nv;
+	double *u, *v; /* owned */
+	struct grid *grid;
+	struct exr_channel channels[N_QUANTITIES];
+	struct exr_image image; /* without attributes */
+	enum quantity shown;
+	enum colormap_scale scale;
+	bool by_hand; /* the range is given */
+	double range[2];
+	struct curvature_view *view; /* NULL where none is asked for */
+};
+
+/* What stands before the packed tile in a unit of the map. */
+struct extremes {
+	double lo[N_QUANTITIES], hi[N_QUANTITIES]; /* lo > hi: no value */
+	double lo_uv[N_QUANTITIES][2], hi_uv[N_QUANTITIES][2];
+	uint64_t undefined; /* samples without some value */
+};
+
+static const struct param params[] = {
+	PARAM_ROW_GRID("512x512"),
+	{ .name = "quantity",
+	  .type = PARAM_CHOICE,
+	  .def = "K",
+	  .choices = "K H kabs kmax kmin kn_u kn_v",
+	  .help = "what the pictures show; the map holds all" },
+	{ .name = "range",
+	  .type = PARAM_TEXT,
+	  .help = "values LO,HI at the ends of the color key" },
+	{ .name = "scale",
+	  .type = PARAM_CHOICE,
+	  .choices = "linear arsinh",
+	  .help = "scale of the color key; by itself arsinh where values crowd" },
+	PARAM_ROW_PNG,
+	PARAM_ROW_VIEW(NULL),
+	PARAM_ROW_SIZE("1280x800"),
+	{ .name = NULL },
+};
+
+static const struct worker_output outputs[] = {
+	{ .extension = ".map.exr", .kind = "map" },
+	{ .extension = ".map.png", .kind = "picture", .when = "png" },
+	{ .extension = ".view.exr", .kind = "image", .when = "view" },
+	{ .extension = ".view.png", .kind = "picture", .when = "view" },
+	{ .extension = NULL },
+};
+
+static enum status read_range(struct state *s, const struct work *w)
+{
+	const char *text = work_text(w, "range"), *at = text, *end = text + strlen(text);
+	s->by_hand = true;
+	if (number_read(&at, end, &s->range[0]) && at < end && *at++ == ',' &&
+	    number_read(&at, end, &s->range[1]) && at == end && isfinite(s->range[0]) &&
+	    isfinite(s->range[1]) && s->range[0] < s->range[1])
+		return ST_OK;
+	return report_error(&w->report, ST_PARAMETER,
+	                    "parameter range '%s': expected LO,HI with LO below HI", text);
+}
+
+static enum status read_parameters(struct state *s, const struct work *w)
+{
+	work_size(w, "grid", &s->nu, &s->nv);
+	if (work_flag(w, "png") && (s->nu > PICTURE_SIDE_MAX || s->nv > PICTURE_SIDE_MAX))
+		return report_error(
+		        &w->report, ST_PARAMETER,
+		        "parameter grid %dx%d: a picture has at most %d samples a side; "
+		        "take fewer or leave out --png",
+		        s->nu, s->nv, PICTURE_SIDE_MAX);
+	for (int q = 0; q < N_QUANTITIES; q++)
+		if (!strcmp(work_text(w, "quantity"), quantity_table[q].channel))
+			s->shown = q;
+	s->scale = COLORMAP_AUTOMATIC;
+	if (work_has(w, "scale"))
+		s->scale =
+		        strcmp(work_text(w, "scale"), "linear") ? COLORMAP_ARSINH : COLORMAP_LINEAR;
+	return work_has(w, "range") ? read_range(s, w) : ST_OK;
+}
+
+static enum status curvature_begin(struct work *w)
+{
+	const struct surface *surface = w->surfaces[0];
+	struct state *s = w->state = calloc(1, sizeof *s);
+	if (!s)
+		return ST_RESOURCE;
+	enum status st = read_parameters(s, w);
+	if (st != ST_OK)
+		return st;
+	s->u = malloc(s->nu * sizeof *s->u);
+	s->v = malloc(s->nv * sizeof *s->v);
+	if (!s->u || !s->v)
+		return ST_RESOURCE;
+	grid_lines(surface->domain[0][0], surface->domain[0][1], s->nu, s->u);
+	grid_lines(surface->domain[1][0], surface->domain[1][1], s->nv, s->v);
+	for (int q = 0; q < N_QUANTITIES; q++)
+		s->channels[q].name = quantity_table[q].channel;
+	s->image = (struct exr_image){ .width = s->nu,
+		                       .height = s->nv,
+		                       .tile = TILE,
+		                       .channels = s->channels,
+		                       .n_channels = N_QUANTITIES };
+	st = grid_create(&s->grid, surface, s->u, s->nu, s->v, s->nv);
+	if (st == ST_OK && work_has(w, "view"))
+		st = curvature_view_create(&s->view, w);
+	return st;
+}
+
+static void curvature_end(struct work *w)
+{
+	struct state *s = w->state;
+	if (!s)
+		return;
+	curvature_view_destroy(s->view);
+	grid_destroy(s->grid);
+	free(s->u);
+	free(s->v);
+	free(s);
+}
+
+static size_t curvature_units(const struct work *w)
+{
+	const struct state *s = w->state;
+	return exr_tiles(&s->image) + (s->view ? curvature_view_tiles(s->view) : 0);
+}
+
+static void extremes_init(struct extremes *e)
+{
+	memset(e, 0, sizeof *e);
+	for (int q = 0; q < N_QUANTITIES; q++) {
+		e->lo[q] = INFINITY;
+		e->hi[q] = -INFINITY;
+	}
+}
+
+static void extremes_add(struct extremes *e, int q, double lo, const double lo_uv[2], double hi,
+                         const double hi_uv[2])
+{
+	if (lo < e->lo[q]) {
+		e->lo[q] = lo;
+		memcpy(e->lo_uv[q], lo_uv, sizeof e->lo_uv[q]);
+	}
+	if (hi > e->hi[q]) {
+		e->hi[q] = hi;
+		memcpy(e->hi_uv[q], hi_uv, sizeof e->hi_uv[q]);
+	}
+}
+
+/* The values of a tile, rows of rising v, become planes with v upward, and their extremes. */
+static void take_tile(struct extremes *e, const struct state *s, int from, int first, int width,
+                      int height, double *const *values, float *const *planes)
+{
+	for (int row = 0; row < height; row++)
+		for (int column = 0; column < width; column++) {
+			double uv[2] = { s->u[from + column], s->v[first + row] };
+			size_t in = (size_t)row * width + column;
+			size_t out = (size_t)(height - 1 - row) * width + column;
+			bool missing = false;
+			for (int q = 0; q < N_QUANTITIES; q++) {
+				double value = values[q][in];
+				planes[q][out] = (float)value;
+				missing |= isnan(value);
+				extremes_add(e, q, value, uv, value, uv);
+			}
+			e->undefined += missing;
+		}
+}
+
+static enum status map_tile(const struct state *s, size_t tile, struct text *out)
+{
+	int x, y, width, height;
+	exr_tile_window(&s->image, tile, &x, &y, &width, &height);
+	size_t n = (size_t)width * height;
+	int first = s->nv - y - height; /* image rows go down, v goes up */
+	double *values = malloc(N_QUANTITIES * n * sizeof *values);
+	float *pixels = malloc(N_QUANTITIES * n * sizeof *pixels), *planes[N_QUANTITIES];
+	double *channels[N_GRID_CHANNELS] = { NULL };
+	enum status st = values && pixels ? ST_OK : ST_RESOURCE;
+	for (int q = 0; q < N_QUANTITIES && st == ST_OK; q++) {
+		channels[q] = values + q * n;
+		planes[q] = pixels + q * n;
+	}
+	if (st == ST_OK)
+		st = grid_rows(s->grid, ALL_QUANTITIES, first, height, x, width, channels);
+	if (st == ST_OK) {
+		struct extremes e;
+		extremes_init(&e);
+		take_tile(&e, s, x, first, width, height, channels, planes);
+		text_add_bytes(out, &e, sizeof e);
+		st = exr_pack(&s->image, tile, (const float *const *)planes, out);
+	}
+	free(values);
+	free(pixels);
+	return st;
+}
+
+static enum status curvature_unit_do(struct work *w, size_t unit)
+{
+	const struct state *s = w->state;
+	size_t n_map = exr_tiles(&s->image);
+	struct text bytes = { 0 };
+	enum status st = unit < n_map ? map_tile(s, unit, &bytes)
+	                              : curvature_view_tile(s->view, unit - n_map, &bytes);
+	if (st == ST_OK)
+		st = work_put(w, unit, bytes.s, bytes.n);
+	text_finish(&bytes);
+	return st;
+}
+
+static void set_figure(json_t *o, int q, const char *end, double value, const double uv[2],
+                       bool found)
+{
+	char name[64];
+	snprintf(name, sizeof name, "%s_%s", quantity_table[q].channel, end);
+	json_set_number(o, name, found ? value : NAN);
+	strncat(name, "_uv", sizeof name - strlen(name) - 1);
+	json_object_set_new(o, name, found ? json_pack("[f,f]", uv[0], uv[1]) : json_null());
+}
+
+static enum status state_figures(struct work *w)
+{
+	const struct state *s = w->state;
+	struct extremes all;
+	extremes_init(&all);
+	for (size_t i = 0; i < exr_tiles(&s->image); i++) {
+		const char *bytes;
+		size_t n;
+		struct extremes e;
+		enum status st = work_get(w, i, &bytes, &n);
+		if (st != ST_OK)
+			return st;
+		if (n < sizeof e)
+			return report_error(&w->report, ST_INTERNAL, "unit %zu is too short", i);
+		memcpy(&e, bytes, sizeof e);
+		for (int q = 0; q < N_QUANTITIES; q++)
+			extremes_add(&all, q, e.lo[q], e.lo_uv[q], e.hi[q], e.hi_uv[q]);
+		all.undefined += e.undefined;
+	}
+	json_t *figures = json_object();
+	json_set_int(figures, "samples", (int64_t)s->nu * s->nv);
+	json_set_int(figures, "undefined", (int64_t)all.undefined);
+	for (int q = 0; q < N_QUANTITIES; q++) {
+		bool found = all.lo[q] <= all.hi[q];
+		set_figure(figures, q, "min", all.lo[q], all.lo_uv[q], found);
+		set_figure(figures, q, "max", all.hi[q], all.hi_uv[q], found);
+	}
+	return work_figures(w, figures);
+}
+
+static enum status give_tile(void *data, size_t i, const char **bytes, size_t *n)
+{
+	enum status st = work_get(data, i, bytes, n);
+	if (st == ST_OK) {
+		*bytes += sizeof(struct extremes);
+		*n -= sizeof(struct extremes);
+	}
+	return st;
+}
+
+static enum status write_map(void *data, const char *path, const struct report *r)
+{
+	struct work *w = data;
+	const struct state *s = w->state;
+	return curvature_write(w, path, &s->image, give_tile, w, r);
+}
+
+/* The map's picture and what is seen from the camera have one key. */
+static enum status make_pictures(struct work *w)
+{
+	struct state *s = w->state;
+	struct curvature_survey survey;
+	enum status st =
+	        curvature_survey_init(&survey, w, s->grid, s->nu, s->nv, s->shown, s->scale);
+	if (st != ST_OK)
+		return st;
+	if (s->by_hand)
+		colormap_set_range(&survey.map, s->range[0], s->range[1]);
+	if (work_flag(w, "png"))
+		st = work_output(w, ".map.png", curvature_survey_write, &survey);
+	if (st == ST_OK && s->view)
+		st = curvature_view_finish(s->view, w, exr_tiles(&s->image), s->shown, &survey.map);
+	curvature_survey_finish(&survey);
+	return st;
+}
+
+static enum status curvature_finish(struct work *w)
+{
+	const struct state *s = w->state;
+	enum status st = state_figures(w);
+	if (st == ST_OK)
+		st = work_output(w, ".map.exr", write_map, w);
+	if (st == ST_OK && (s->view || work_flag(w, "png")))
+		st = make_pictures(w);
+	return st;
+}
+
+const struct worker worker = {
+	.name = "curvature",
+	.title = "curvature map",
+	.version = 1,
+	.help = "Gaussian, mean, absolute, principal and normal curvatures of a surface on a grid of its "
+	        "parameters: image x is u, image y is v with v upward, both ends of the domain "
+	        "included. With --view also as seen from a camera.",
+	.scene = false,
+	.params = params,
+	.outputs = outputs,
+	.begin = curvature_begin,
+	.units = curvature_units,
+	.unit = curvature_unit_do,
+	.finish = curvature_finish,
+	.end = curvature_end,
+};
