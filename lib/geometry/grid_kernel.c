@@ -147,7 +147,8 @@ ALWAYS void normals(struct grid_block *b, size_t n, const bool rational)
 	}
 }
 
-ALWAYS void curvatures(struct grid_block *b, size_t n, const bool rational, const bool all)
+/* All quantities, whichever are asked for: with fewer, sums would fuse otherwise and values differ. */
+ALWAYS void curvatures(struct grid_block *b, size_t n, const bool rational)
 {
 	n &= ~(size_t)(GRID_PAD - 1);
 	for (size_t i = 0; i < n; i++) {
@@ -173,11 +174,9 @@ ALWAYS void curvatures(struct grid_block *b, size_t n, const bool rational, cons
 		b->channel[QUANTITY_MEAN][i] = f.mean;
 		b->channel[QUANTITY_KMAX][i] = f.kmax;
 		b->channel[QUANTITY_KMIN][i] = f.kmin;
-		if (all) {
-			b->channel[QUANTITY_ABSOLUTE][i] = fabs(f.kmax) + fabs(f.kmin);
-			b->channel[QUANTITY_NORMAL_U][i] = f.normal_u;
-			b->channel[QUANTITY_NORMAL_V][i] = f.normal_v;
-		}
+		b->channel[QUANTITY_ABSOLUTE][i] = fabs(f.kmax) + fabs(f.kmin);
+		b->channel[QUANTITY_NORMAL_U][i] = f.normal_u;
+		b->channel[QUANTITY_NORMAL_V][i] = f.normal_v;
 	}
 }
 
@@ -193,18 +192,14 @@ static size_t count_low(const double *area2, size_t n, double floor)
 ALWAYS size_t block_of(const struct grid_strip *s, unsigned what, size_t n, struct grid_block *b,
                        const bool rational)
 {
-	const unsigned rest = GRID_BIT(QUANTITY_ABSOLUTE) | GRID_BIT(QUANTITY_NORMAL_U) |
-	                      GRID_BIT(QUANTITY_NORMAL_V);
 	if (what & (GRID_BIT(GRID_POINT_X) | GRID_BIT(GRID_POINT_Y) | GRID_BIT(GRID_POINT_Z)))
 		points(b, s->center, n, rational);
 	if (!(what & grid_first))
 		return 0;
 	if (what & grid_first & ~grid_second)
 		normals(b, n, rational);
-	if (what & rest)
-		curvatures(b, n, rational, true);
-	else if (what & grid_second)
-		curvatures(b, n, rational, false);
+	if (what & grid_second)
+		curvatures(b, n, rational);
 	return count_low(b->area2, n, s->floor);
 }
 
