@@ -15,7 +15,8 @@ enum status environment_init(struct environment *e, const struct work *w, const 
 	                                  : ENVIRONMENT_STRIPES;
 	e->sun = look->light;
 	e->zenith = look->sky;
-	e->step = 2 * work_real(w, "stripe-width") * M_PI / 180;
+	/* whole pairs of stripes go round, or there would be a seam */
+	e->pairs = fmax(1, round(180 / work_real(w, "stripe-width")));
 	if (e->kind != ENVIRONMENT_STRIPES)
 		return ST_OK;
 	if (!(size > 0) || !isfinite(size))
@@ -47,7 +48,7 @@ static struct tint stripes(const struct environment *e, struct vec3 d)
 {
 	static const struct tint dark = { 0.02f, 0.025f, 0.035f }, bright = { 0.95f, 0.96f, 1 };
 	double angle = atan2(vec3_dot(d, e->up), vec3_dot(d, e->across));
-	double phase = angle / e->step - floor(angle / e->step);
+	double turn = angle / (2 * M_PI) * e->pairs, phase = turn - floor(turn);
 	double edge = fabs(phase - 0.5); /* 0.25 at the edges of a stripe */
 
 	return blend(bright, dark, smooth(0.235, 0.265, edge));

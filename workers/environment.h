@@ -22,7 +22,8 @@ struct environment {
 	  .help = "what is mirrored: bright and dark stripes as of light tubes, far away, by "     \
 		  "which fairness is judged; a sky; or nothing" },                                 \
 	{ .name = "stripe-width", .type = PARAM_REAL, .def = "8", .min = 0.1, .max = 90,           \
-	  .unit = "deg", .help = "angle that one stripe takes" },                                  \
+	  .unit = "deg",                                                                           \
+	  .help = "angle that one stripe takes, rounded so that whole pairs go round" },           \
 	{ .name = "stripe-direction", .type = PARAM_VECTOR, .def = "1,0,0",                        \
 	  .help = "along which the stripes run" }
 /* clang-format on */

@@ -15,6 +15,15 @@ static struct tint tint_of(const double srgb[3])
 	return (struct tint){ look_linear(srgb[0]), look_linear(srgb[1]), look_linear(srgb[2]) };
 }
 
+/*
+ * Does the file say how the surface looks? Black does not: it is what CAD systems write for "as the
+ * pen is", and hides the form.
+ */
+static bool has_color(const struct entity *e)
+{
+	return e->has_color && e->color[0] + e->color[1] + e->color[2] > 0.15;
+}
+
 static enum status read_light(struct look *l, const struct work *w, const struct camera *c)
 {
 	if (work_has(w, "light"))
@@ -58,7 +67,7 @@ enum status look_init(struct look *l, struct work *w, const struct camera *camer
 	const double srgb[3] = { (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0,
 		                 (rgb & 255) / 255.0 };
 	for (int i = 0; i < w->n_surfaces; i++)
-		l->colors[i] = tint_of(w->entities[i]->has_color ? w->entities[i]->color : srgb);
+		l->colors[i] = tint_of(has_color(w->entities[i]) ? w->entities[i]->color : srgb);
 	return ST_OK;
 }
 

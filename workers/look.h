@@ -36,7 +36,7 @@ struct look {
 	{ .name = "shininess", .type = PARAM_REAL, .def = "40", .min = 1, .max = 10000,            \
 	  .help = "how small the highlight is" },                                                  \
 	{ .name = "color", .type = PARAM_COLOR, .def = "#C3CCD4",                                  \
-	  .help = "color of surfaces to which the file gives none" }
+	  .help = "color of surfaces to which the file gives none, or black" }
 /* clang-format on */
 
 /* Read the parameters. Errors: ST_PARAMETER (light given twice, without direction), ST_RESOURCE. */
