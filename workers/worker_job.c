@@ -178,21 +178,29 @@ static enum status read_members(const struct source *s, struct task *t)
 	return st;
 }
 
-enum status job_read(struct task *t, const char *path, const struct report *r)
+enum status job_parse(struct task *t, const char *text, size_t n, const char *path,
+                      const struct report *r)
 {
-	char *text = NULL;
-	size_t n = 0;
 	json_t *job = NULL;
 	enum status st = task_init(t);
-	if (st == ST_OK)
-		st = file_read(path, job_size_max, &text, &n, r);
 	if (st == ST_OK)
 		st = json_parse_object(text, n, path, &job, r);
 	if (st == ST_OK)
 		st = read_members(&(struct source){ path, job, r }, t);
 	json_decref(job);
-	free(text);
 	if (st != ST_OK)
 		task_finish(t);
+	return st;
+}
+
+enum status job_read(struct task *t, const char *path, const struct report *r)
+{
+	char *text;
+	size_t n;
+	enum status st = file_read(path, job_size_max, &text, &n, r);
+	if (st != ST_OK)
+		return st;
+	st = job_parse(t, text, n, path, r);
+	free(text);
 	return st;
 }

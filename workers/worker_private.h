@@ -46,8 +46,10 @@ enum mode { MODE_RUN, MODE_PACKETS, MODE_DESCRIBE, MODE_HELP, MODE_VERSION };
 enum status options_parse(struct task *t, int argc, char **argv, enum mode *mode,
                           const struct report *r);
 
-/* t is initialised here. Errors: ST_INPUT, ST_PARAMETER, ST_RESOURCE. */
+/* A job file, or its text; t is initialised here. Errors: ST_INPUT, ST_PARAMETER, ST_RESOURCE. */
 enum status job_read(struct task *t, const char *path, const struct report *r);
+enum status job_parse(struct task *t, const char *text, size_t n, const char *path,
+                      const struct report *r);
 
 /* ---- parameters ---- */
 

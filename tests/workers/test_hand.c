@@ -288,6 +288,8 @@ static void test_memory(void **state)
 {
 	(void)state;
 #ifdef ADDRESS_SPACE_IS_TAKEN
+	const char *options = getenv("ASAN_OPTIONS");
+	char *saved = strdup(options ? options : "");
 	int resource = 0, limit = 0;
 	setenv("ASAN_OPTIONS", "allocator_may_return_null=1:max_allocation_size_mb=500", 1);
 #else
@@ -297,7 +299,10 @@ static void test_memory(void **state)
 	                   "1000000000", "--threads", "2", NULL),
 	       1, "", "memory ran out while computing");
 	assert_int_equal(count_files(), 2);
-	unsetenv("ASAN_OPTIONS");
+#ifdef ADDRESS_SPACE_IS_TAKEN
+	setenv("ASAN_OPTIONS", saved, 1);
+	free(saved);
+#endif
 }
 
 static void test_description(void **state)
