@@ -57,25 +57,36 @@ struct sum {
 	double length, max_error;
 };
 
+static void sum_add(struct sum *sum, const struct level_result *x)
+{
+	sum->branches += x->n_branches;
+	sum->closed += x->n_closed;
+	sum->undecided += x->n_undecided;
+	sum->length += x->length;
+	sum->max_error = fmax(sum->max_error, x->max_error);
+	for (size_t i = 0; i < x->n_branches; i++)
+		sum->points += x->branches[i].uv.n;
+}
+
+/* From the surface on; what is prepared for the first plane serves all. */
 static enum status run(const struct surface *s, const struct row *row, struct sum *sum)
 {
+	struct level_field field = { row->kind, row->direction, row->value };
+	struct level *first = NULL;
+	enum status st = level_create(&first, s, &field, row->tolerance, NULL);
 	*sum = (struct sum){ 0 };
-	for (int k = 0; k < row->many; k++) {
-		struct level_result x;
-		enum status st = shape_trace(s, row->kind, row->direction,
-		                             row->value + k * row->step, row->tolerance, &x, NULL);
-		if (st != ST_OK)
-			return st;
-		sum->branches += x.n_branches;
-		sum->closed += x.n_closed;
-		sum->undecided += x.n_undecided;
-		sum->length += x.length;
-		sum->max_error = fmax(sum->max_error, x.max_error);
-		for (size_t i = 0; i < x.n_branches; i++)
-			sum->points += x.branches[i].uv.n;
+	for (int k = 0; st == ST_OK && k < row->many; k++) {
+		struct level_result x = { 0 };
+		struct level *l = NULL;
+		st = level_create_like(&l, first, row->value + k * row->step, NULL);
+		if (st == ST_OK)
+			st = shape_trace_level(l, &x, NULL);
+		sum_add(sum, &x);
 		level_result_finish(&x);
+		level_destroy(l);
 	}
-	return ST_OK;
+	level_destroy(first);
+	return st;
 }
 
 int main(void)

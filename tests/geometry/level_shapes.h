@@ -38,19 +38,28 @@ static inline double shape_wavy(int i, int j, int n)
 }
 
 /* All patches in turn, then joined. */
+static inline enum status shape_trace_level(const struct level *l, struct level_result *out,
+                                            const struct report *r)
+{
+	struct text bytes = { 0 };
+	enum status st = ST_OK;
+	for (size_t i = 0; st == ST_OK && i < level_patches(l); i++)
+		st = level_patch(l, i, &bytes);
+	if (st == ST_OK)
+		st = level_join(l, &(const char *){ bytes.s }, &bytes.n, 1, out, r);
+	text_finish(&bytes);
+	return st;
+}
+
 static inline enum status shape_trace(const struct surface *s, enum level_kind kind,
                                       struct vec3 direction, double value, double tolerance,
                                       struct level_result *out, const struct report *r)
 {
 	struct level_field field = { kind, direction, value };
 	struct level *l = NULL;
-	struct text bytes = { 0 };
 	enum status st = level_create(&l, s, &field, tolerance, r);
-	for (size_t i = 0; st == ST_OK && i < level_patches(l); i++)
-		st = level_patch(l, i, &bytes);
 	if (st == ST_OK)
-		st = level_join(l, &(const char *){ bytes.s }, &bytes.n, 1, out, r);
-	text_finish(&bytes);
+		st = shape_trace_level(l, out, r);
 	level_destroy(l);
 	return st;
 }

@@ -134,7 +134,7 @@ static enum status level_set(struct level *l, const struct level_field *field, d
 	l->value = field->kind == LEVEL_SILHOUETTE ? 0 : field->value;
 	if (angle && fabs(l->value) < 1e-15)
 		l->value = 0;
-	l->sine = sqrt(fmax(0, (1 - l->value) * (1 + l->value)));
+	l->sine = sqrt(larger(0, (1 - l->value) * (1 + l->value)));
 	for (int d = 0; d < 3; d++)
 		l->direction[d] = s->frame[2][d];
 	l->direction[3] = -l->value / vec3_length(field->direction);

@@ -61,7 +61,8 @@ static void station_set(const struct follower *w, const struct field_point *x, d
 static void station_find(const struct follower *w, double uv[2], struct station *out)
 {
 	int other = 1 - w->along;
-	double lo = w->box->lo[other], hi = w->box->hi[other], y = fmin(fmax(uv[other], lo), hi);
+	double lo = w->box->lo[other], hi = w->box->hi[other],
+	       y = smaller(larger(uv[other], lo), hi);
 	struct field_point x;
 	double last = INFINITY;
 	for (int step = 0; step < 60; step++) {
@@ -98,30 +99,36 @@ static void hermite(double t, double h[4])
 	h[3] = -t * t * s;
 }
 
+/* The curve near a point: its direction, of any length, and one over that length's square. */
+struct direction {
+	double t[3], per_square;
+};
+
 /*
  * What the exact curve is off from x, at right angles to it: to first order the nearest point of
- * the curve is x.p + shift, reached by moving u,v by `duv`. tangent: the curve's, unit.
+ * the curve is x.p + shift, reached by moving u,v by `duv`. Returns the distance, squared.
  */
-static double nearest(const struct field_point *x, double tangent[3], double shift[3],
+static double nearest(const struct field_point *x, struct direction *along, double shift[3],
                       double duv[2])
 {
-	double l = tangent_of(x, tangent);
+	double *t = along->t;
 	for (int d = 0; d < 3; d++)
-		tangent[d] /= l;
-	double a = dot(x->su, tangent), b = dot(x->sv, tangent);
-	duv[0] = -x->f / l * b;
-	duv[1] = x->f / l * a;
+		t[d] = x->fu * x->sv[d] - x->fv * x->su[d];
+	along->per_square = 1 / (dot(t, t) + 1e-300);
+	double f = x->f * along->per_square;
+	duv[0] = -f * dot(x->sv, t);
+	duv[1] = f * dot(x->su, t);
 	for (int d = 0; d < 3; d++)
 		shift[d] = x->su[d] * duv[0] + x->sv[d] * duv[1];
 	return dot(shift, shift);
 }
 
-/* r without its part along the unit vector t; returns what is left, squared. */
-static double across(double r[3], const double t[3])
+/* r without its part along the direction; returns what is left, squared. */
+static double across(double r[3], const struct direction *along)
 {
-	double along = dot(r, t);
+	double a = dot(r, along->t) * along->per_square;
 	for (int d = 0; d < 3; d++)
-		r[d] -= along * t[d];
+		r[d] -= a * along->t[d];
 	return dot(r, r);
 }
 
@@ -138,9 +145,10 @@ static double middle_fit(const struct follower *w, const struct station *a, cons
                          struct lengths *l, double uv[2])
 {
 	struct field_point x;
-	double tangent[3], shift[3], duv[2], bulge[3], off[3], normal_bulge[3];
+	struct direction along;
+	double shift[3], duv[2], bulge[3], off[3], normal_bulge[3];
 	level_field_at(w->t, uv[0], uv[1], &x);
-	nearest(&x, tangent, shift, duv);
+	nearest(&x, &along, shift, duv);
 	double fb = (x.fu * (a->duv[0] - b->duv[0]) + x.fv * (a->duv[1] - b->duv[1])) / 8;
 	double more = fb != 0 ? -x.f / fb : 0, length = l->space;
 	if (fabs(more) < 0.1 * length)
@@ -150,7 +158,7 @@ static double middle_fit(const struct follower *w, const struct station *a, cons
 		normal_bulge[d] = bulge[d];
 		off[d] = x.p[d] + shift[d] - 0.5 * (a->p[d] + b->p[d]) - length * bulge[d];
 	}
-	double error = across(off, tangent), b2 = across(normal_bulge, tangent);
+	double error = across(off, &along), b2 = across(normal_bulge, &along);
 	more = b2 > 0 ? dot(off, normal_bulge) / b2 : 0;
 	if (fabs(more) < 0.1 * length) {
 		l->space += more;
@@ -168,19 +176,20 @@ static double check(const struct follower *w, const struct station *a, const str
                     const struct lengths *l, double error, double limit)
 {
 	for (int k = 0; k < CHECKS && error < limit; k++) {
-		double h[4], uv[2], tangent[3], shift[3], duv[2], off[3];
+		double h[4], uv[2], shift[3], duv[2], off[3];
+		struct direction along;
 		struct field_point x;
 		hermite(check_at[k], h);
 		for (int d = 0; d < 2; d++)
 			uv[d] = h[0] * a->uv[d] + h[1] * b->uv[d] +
 			        l->uv * (h[2] * a->duv[d] + h[3] * b->duv[d]);
 		level_field_at(w->t, uv[0], uv[1], &x);
-		error = fmax(error, nearest(&x, tangent, shift, duv));
+		error = larger(error, nearest(&x, &along, shift, duv));
 		for (int d = 0; d < 3; d++)
 			off[d] = x.p[d] + shift[d] -
 			         (h[0] * a->p[d] + h[1] * b->p[d] +
 			          l->space * (h[2] * a->dp[d] + h[3] * b->dp[d]));
-		error = fmax(error, across(off, tangent));
+		error = larger(error, across(off, &along));
 	}
 	return error;
 }
@@ -222,7 +231,7 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 		chord[d] = b->p[d] - a->p[d];
 	double size = sqrt(dot(chord, chord)), turn = dot(a->dp, b->dp);
 	/* a circle's arc of that chord and turn: chord / cos^2 (angle / 4) */
-	double first = size * 2 / (1 + sqrt(fmax(0, (1 + turn) / 2)));
+	double first = size * 2 / (1 + sqrt(larger(0, (1 + turn) / 2)));
 	struct lengths l = { first, first };
 	bool tiny = size < 1e-3 * tolerance;
 	if (tiny) {

@@ -165,7 +165,7 @@ static double piece_length(const struct piece *p)
 		for (int d = 0; d < 3; d++)
 			v[d] = 6 * t * s * (p->p[1][d] - p->p[0][d]) +
 			       s * (1 - 3 * t) * p->dp[0][d] + t * (3 * t - 2) * p->dp[1][d];
-		sum += 0.5 * weight[k] * hypot(hypot(v[0], v[1]), v[2]);
+		sum += 0.5 * weight[k] * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 	}
 	return sum;
 }
@@ -242,13 +242,13 @@ static enum status curves_make(struct span *s, size_t n, double size, bool close
 		if (i > 0)
 			knot = knots_put(&out->uv, knot, t, s[i].cut ? 4 : 3);
 		if (s[i].cut)
-			out->max_error = fmax(out->max_error, seam_close(&s[i - 1].piece, p));
+			out->max_error = larger(out->max_error, seam_close(&s[i - 1].piece, p));
 		span_put(&out->uv, point, uv, duv, 2, i == 0 || s[i].cut);
 		point = span_put(&out->space, point, p->p, p->dp, 3, i == 0 || s[i].cut);
 		/* parameters must rise even where the curve stands still */
-		t += fmax(length, 1e-12 * size);
+		t += larger(length, 1e-12 * size);
 		out->length += length;
-		out->max_error = fmax(out->max_error, p->error);
+		out->max_error = larger(out->max_error, p->error);
 	}
 	knots_put(&out->uv, knot, t, 4);
 	memcpy(out->space.knots, out->uv.knots, sizeof(double) * (out->uv.n + 4));

@@ -9,7 +9,6 @@
 #include "level_private.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* A patch with many undecided cells is not halved so far any more. */
 enum { FEW_UNDECIDED = 64, MANY_UNDECIDED = 512, DEPTH_AFTER_FEW = 11, DEPTH_AFTER_MANY = 7 };
@@ -224,9 +223,7 @@ static bool cell_decide(struct tracer *t, const struct cell *cell, const double 
 static double *scratch_at(struct tracer *t, int depth)
 {
 	if (!t->scratch[depth])
-		t->scratch[depth] = malloc(sizeof(double) * (t->n_field + t->n_side));
-	if (!t->scratch[depth])
-		t->failed = true;
+		t->scratch[depth] = level_room(t, t->n_field + t->n_side);
 	return t->scratch[depth];
 }
 

@@ -58,7 +58,7 @@ static bool isophote_make(struct tracer *t, double *out)
 		return false;
 	for (size_t i = 0; i < count; i++) {
 		const double *p = t->normals + 4 * i;
-		scale = fmax(scale, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+		scale = larger(scale, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
 	}
 	t->scale = scale;
 	memset(out, 0, sizeof *out * t->n_field);
@@ -80,7 +80,7 @@ static bool silhouette_make(struct tracer *t, double *out)
 	for (size_t i = 0; i < t->n_field; i++) {
 		const double *p = t->normals + 4 * i;
 		out[i] = p[2];
-		scale = fmax(scale, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+		scale = larger(scale, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
 	}
 	t->scale = sqrt(scale);
 	return true;
@@ -94,7 +94,7 @@ static bool plane_make(struct tracer *t, double *out)
 		const double *p = t->points + 4 * i;
 		double x[4] = { n[0] * p[0], n[1] * p[1], n[2] * p[2], n[3] * p[3] };
 		out[i] = x[0] + x[1] + x[2] + x[3];
-		scale = fmax(scale, fabs(x[0]) + fabs(x[1]) + fabs(x[2]) + fabs(x[3]));
+		scale = larger(scale, fabs(x[0]) + fabs(x[1]) + fabs(x[2]) + fabs(x[3]));
 	}
 	t->scale = scale;
 	return true;

@@ -9,8 +9,8 @@
 
 #include <string.h>
 
-void form_product(const double *a, int am, int an, const double *b, int bm, int bn, double weight,
-                  double *out)
+WIDE void form_product(const double *a, int am, int an, const double *b, int bm, int bn,
+                       double weight, double *out)
 {
 	int n = an + bn;
 	for (int i = 0; i <= am; i++)
@@ -25,7 +25,7 @@ void form_product(const double *a, int am, int an, const double *b, int bm, int 
 		}
 }
 
-void form_square(const double *a, int m, int n, double weight, double *out)
+WIDE void form_square(const double *a, int m, int n, double weight, double *out)
 {
 	for (int i = 0; i <= m; i++)
 		for (int k = i; k <= m; k++) {
@@ -68,7 +68,7 @@ void form_divide(double *c, int m, int n, int d, bool upper)
 	}
 }
 
-void form_split(double *c, int m, int n, int d, double *lower)
+WIDE void form_split(double *c, int m, int n, int d, double *lower)
 {
 	size_t row = (size_t)n + 1;
 	if (d == 0) {
@@ -91,7 +91,7 @@ void form_split(double *c, int m, int n, int d, double *lower)
 	}
 }
 
-int form_sign(const double *c, size_t count)
+WIDE int form_sign(const double *c, size_t count)
 {
 	double lo = c[0], hi = c[0];
 	for (size_t i = 1; i < count; i++) {
@@ -130,8 +130,8 @@ static inline __attribute__((always_inline)) void basis(int n, double t, double 
 	d[n] = n * c[n - 1];
 }
 
-void form_evaluate(const double *c, int m, int n, double u, double v, double *f, double *fu,
-                   double *fv)
+WIDE void form_evaluate(const double *c, int m, int n, double u, double v, double *f, double *fu,
+                        double *fv)
 {
 	double bu[FIELD_DEGREE_MAX + 1], du[FIELD_DEGREE_MAX + 1];
 	double bv[FIELD_DEGREE_MAX + 1], dv[FIELD_DEGREE_MAX + 1];
@@ -179,8 +179,8 @@ static inline __attribute__((always_inline)) void sum4(const double *p, int m, i
 	*(vec4 *)fv = sv;
 }
 
-void form_evaluate4(const double *c, int m, int n, double u, double v, double f[4], double fu[4],
-                    double fv[4])
+WIDE void form_evaluate4(const double *c, int m, int n, double u, double v, double f[4],
+                         double fu[4], double fv[4])
 {
 	if (m == 3 && n == 3)
 		sum4(c, 3, 3, u, v, f, fu, fv);

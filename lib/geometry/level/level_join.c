@@ -193,7 +193,7 @@ static enum status branch_add(const struct joint *j, size_t *entries, size_t n, 
 		return st;
 	out->n_closed += closed;
 	out->length += b->length;
-	out->max_error = fmax(out->max_error, b->max_error);
+	out->max_error = larger(out->max_error, b->max_error);
 	return ST_OK;
 }
 

@@ -186,8 +186,8 @@ static bool box_at(struct joint *j, const struct rest *x)
 	for (int d = 0; d < 2; d++) {
 		double lo = net->breaks[d][0], hi = net->breaks[d][net->spans[d]];
 		double near = shared_step * (hi - lo);
-		b->lo[d] = fmax(lo, x->at.uv[d] - near);
-		b->hi[d] = fmin(hi, x->at.uv[d] + near);
+		b->lo[d] = larger(lo, x->at.uv[d] - near);
+		b->hi[d] = smaller(hi, x->at.uv[d] + near);
 	}
 	return true;
 }

@@ -104,9 +104,9 @@ static void take_out_factors(const struct maker *k)
 				for (int j = 0; j <= n; j++) {
 					double x = fabs(k->n[c][i * (n + 1) + j]);
 					int at = d == 0 ? i : j, end = upper ? (d == 0 ? m : n) : 0;
-					most = fmax(most, x);
+					most = larger(most, x);
 					if (at == end)
-						most_side = fmax(most_side, x);
+						most_side = larger(most_side, x);
 				}
 		if (most_side > ZERO_SHARE * most || most == 0)
 			continue;
@@ -148,10 +148,10 @@ enum status level_normals(struct level_surface *s)
 	struct vec3 lo = vec3(INFINITY, INFINITY, INFINITY), hi = vec3_scale(lo, -1);
 	for (size_t i = 0; i < points; i++) {
 		const double *p = net->points + 4 * i;
-		lo = vec3(fmin(lo.x, p[0] / p[3]), fmin(lo.y, p[1] / p[3]),
-		          fmin(lo.z, p[2] / p[3]));
-		hi = vec3(fmax(hi.x, p[0] / p[3]), fmax(hi.y, p[1] / p[3]),
-		          fmax(hi.z, p[2] / p[3]));
+		lo = vec3(smaller(lo.x, p[0] / p[3]), smaller(lo.y, p[1] / p[3]),
+		          smaller(lo.z, p[2] / p[3]));
+		hi = vec3(larger(hi.x, p[0] / p[3]), larger(hi.y, p[1] / p[3]),
+		          larger(hi.z, p[2] / p[3]));
 	}
 	k.center[0] = 0.5 * (lo.x + hi.x);
 	k.center[1] = 0.5 * (lo.y + hi.y);
@@ -210,8 +210,8 @@ static double side_difference(const struct side *a, const struct side *b, double
 	for (int i = 0; i <= a->degree; i++)
 		for (int c = 0; c < 4; c++) {
 			double x = a->c[a->step * i + c], y = b->c[b->step * i + c];
-			most = fmax(most, fabs(x - y));
-			*size = fmax(*size, fmax(fabs(x), fabs(y)));
+			most = larger(most, fabs(x - y));
+			*size = larger(*size, larger(fabs(x), fabs(y)));
 		}
 	return most;
 }
@@ -237,7 +237,7 @@ static enum edge_kind edge_between(struct level_surface *s, int lower, int upper
 	struct side a = side_of(net->points + size * lower, degree, d, true);
 	struct side b = side_of(net->points + size * upper, degree, d, false);
 	double gap = side_difference(&a, &b, &most);
-	if (gap > GAP_SHARE * fmax(net->size, most))
+	if (gap > GAP_SHARE * larger(net->size, most))
 		return EDGE_CREASE;
 	if (s->kind == LEVEL_PLANE)
 		return gap == 0 ? EDGE_SHARED : EDGE_SMOOTH;
@@ -279,7 +279,7 @@ static bool ends_meet(const struct level_surface *s, int d)
 		int first = d == 0 ? a : a * lines;
 		struct side x = side_of(net->points + size * last, degree, d, true);
 		struct side y = side_of(net->points + size * first, degree, d, false);
-		if (side_difference(&x, &y, &most) > GAP_SHARE * fmax(net->size, most))
+		if (side_difference(&x, &y, &most) > GAP_SHARE * larger(net->size, most))
 			return false;
 	}
 	return true;

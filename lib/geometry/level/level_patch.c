@@ -9,6 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Memory on the stack that serves patches of common degrees. Doubles. */
+enum { ROOM = 8192 };
+
 /* Between cells one of which stayed undecided, ends are paired that lie this near. */
 static const double near_on_line = 1e-7;
 
@@ -203,8 +206,10 @@ out:
 static enum status patch_write(struct tracer *t, struct text *out)
 {
 	struct list strands = { 0 }, pieces = { 0 };
+	if (t->arcs.n == 0 && t->undecided.n == 0)
+		return ST_OK;
 	enum status st = strands_make(t, &strands, &pieces);
-	if (st == ST_OK && (strands.n || t->undecided.n)) {
+	if (st == ST_OK) {
 		struct patch_header h = { .magic = PATCH_MAGIC,
 			                  .patch = t->patch,
 			                  .n_strands = (int)strands.n,
@@ -220,10 +225,32 @@ static enum status patch_write(struct tracer *t, struct text *out)
 	return out->failed ? ST_RESOURCE : st;
 }
 
+double *level_room(struct tracer *t, size_t n)
+{
+	double *p = t->room;
+	if (n <= t->n_room) {
+		t->room += n;
+		t->n_room -= n;
+		return p;
+	}
+	p = malloc(sizeof *p * n);
+	if (!p)
+		t->failed = true;
+	return p;
+}
+
+/* Give back what level_room gave, if it is not in the room itself. */
+static void room_free(double *p, const double *room)
+{
+	if (p < room || p >= room + ROOM)
+		free(p);
+}
+
 enum status level_patch(const struct level *l, size_t patch, struct text *out)
 {
 	const struct level_surface *s = l->surface;
-	struct tracer t = { .level = l, .patch = (int)patch };
+	double room[ROOM];
+	struct tracer t = { .level = l, .patch = (int)patch, .room = room, .n_room = ROOM };
 	enum status st = ST_RESOURCE;
 	t.place[0] = t.patch / s->net.spans[1];
 	t.place[1] = t.patch % s->net.spans[1];
@@ -234,24 +261,18 @@ enum status level_patch(const struct level *l, size_t patch, struct text *out)
 		if (l->value != 0)
 			t.n_side = level_normals_size(s) / 4;
 	}
-	t.n_scratch = 2 * CELL_DEPTH_MAX + 2;
-	t.scratch = calloc(t.n_scratch, sizeof *t.scratch);
-	double *work = calloc(2 * t.n_field + 2 * t.n_side, sizeof *work);
-	if (!t.scratch || !work)
-		goto out;
-	t.field = work;
-	t.product = work + t.n_field;
-	double *c = t.product + t.n_side;
-	if (level_field_make(&t, c))
+	t.field = level_room(&t, t.n_field);
+	t.product = level_room(&t, t.n_side + 1);
+	double *c = level_room(&t, t.n_field + t.n_side);
+	if (!t.failed && level_field_make(&t, c))
 		level_search(&t, c);
-	if (t.failed || t.arcs.failed || t.pieces.failed || t.ends.failed || t.undecided.failed)
-		goto out;
-	st = patch_write(&t, out);
-out:
-	for (int i = 0; t.scratch && i < t.n_scratch; i++)
-		free(t.scratch[i]);
-	free(t.scratch);
-	free(work);
+	if (!t.failed)
+		st = patch_write(&t, out);
+	for (int i = 0; i < N_SCRATCH; i++)
+		room_free(t.scratch[i], room);
+	room_free(t.field, room);
+	room_free(t.product, room);
+	room_free(c, room);
 	free(t.arcs.p);
 	free(t.pieces.p);
 	free(t.ends.p);

@@ -15,7 +15,8 @@ enum {
 	NORMAL_DEGREE_MAX = 3 * (ORDER_MAX - 1) - 1,
 	FIELD_DEGREE_MAX = 2 * NORMAL_DEGREE_MAX,
 	CELL_DEPTH_MAX = 22, /* smallest cell: 2^-22 of a patch */
-	LINE_BITS = 24,      /* a line in a patch is a multiple of 2^-24 */
+	N_SCRATCH = 2 * CELL_DEPTH_MAX + 2,
+	LINE_BITS = 24, /* a line in a patch is a multiple of 2^-24 */
 };
 
 /* Normals that differ by less over a knot line make no crease: 0.06 degrees, what CAD systems call
@@ -55,6 +56,24 @@ struct level {
 	int degree[2];       /* of f */
 	double tolerance;
 };
+
+/* Kernels are built for wider vectors, too. Nothing is fused, so all give the same bits. */
+#if defined(__x86_64__)
+#define WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define WIDE
+#endif
+
+/* Without the care for NaN that keeps fmax and fmin a call. */
+static inline double larger(double a, double b)
+{
+	return a > b ? a : b;
+}
+
+static inline double smaller(double a, double b)
+{
+	return a < b ? a : b;
+}
 
 size_t level_edge(const struct level_surface *s, int d, int i, int j);
 
@@ -124,10 +143,11 @@ struct tracer {
 	bool own_field;         /* f is evaluated from `field` (a factor was taken out) */
 	double scale;           /* size of the terms that f is a sum of */
 	struct list arcs, pieces, ends, undecided;
-	double **scratch; /* cells on the way down, one array a depth */
-	int n_scratch;
-	double *product; /* room for scaled factors of a product */
-	bool failed;     /* memory ran out */
+	double *scratch[N_SCRATCH]; /* cells on the way down, one array a depth */
+	double *product;            /* room for scaled factors of a product */
+	double *room;               /* what is left of the memory on the stack */
+	size_t n_room;
+	bool failed; /* memory ran out */
 };
 
 /* level_field.c: false where the patch holds no curve. `out`: f, then the side condition. */
@@ -138,6 +158,9 @@ struct field_point {
 	double p[3], su[3], sv[3];
 };
 void level_field_at(const struct tracer *t, double u, double v, struct field_point *out);
+
+/* level_patch.c: n doubles, from the room or fresh; NULL: t->failed. */
+double *level_room(struct tracer *t, size_t n);
 
 /* level_cell.c */
 void level_search(struct tracer *t, double *c);

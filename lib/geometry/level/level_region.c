@@ -64,8 +64,8 @@ static void regions_sweep(const struct level_box *b, size_t n, const double near
 static void region_add(struct level_box *to, const struct level_box *b)
 {
 	for (int d = 0; d < 2; d++) {
-		to->lo[d] = fmin(to->lo[d], b->lo[d]);
-		to->hi[d] = fmax(to->hi[d], b->hi[d]);
+		to->lo[d] = smaller(to->lo[d], b->lo[d]);
+		to->hi[d] = larger(to->hi[d], b->hi[d]);
 	}
 	to->flat = to->flat && b->flat;
 }
