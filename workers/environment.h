@@ -11,7 +11,7 @@ struct environment {
 	struct vec3 axis, across,
 	        up;              /* unit: stripes run along axis; across and up span the rest */
 	struct vec3 sun, zenith; /* unit */
-	double step;             /* angle of a bright and a dark stripe together, radians */
+	double pairs;            /* of a bright and a dark stripe, all around */
 };
 
 /* Rows for `params`. */
