@@ -237,6 +237,7 @@ static enum status read_all(struct iges *g)
 	g->at = -1;
 	if (st == ST_OK)
 		st = iges_find_uses(g);
+	g->budget = (int64_t)BUDGET_A_LINE * g->n_p + BUDGET_MORE;
 	if (st == ST_OK)
 		st = read_entities(g);
 	if (st == ST_OK)

@@ -9,7 +9,7 @@
 
 #include "number.h"
 
-enum { TOKEN_MAX = 128, BUDGET_STEP = 0xfff /* lines between looks at the stop flag, less 1 */ };
+enum { TOKEN_MAX = 128, STEPS_A_LOOK = 0xfff /* lines between looks at the stop flag, less 1 */ };
 
 enum status iges_refuse(struct iges *g, const char *format, ...)
 {
@@ -52,13 +52,13 @@ static bool to_line(struct iges_cursor *c, int i)
 		          g->header.record);
 		return false;
 	}
-	if (--g->budget < 0) {
+	if (c->de != g->at && --g->budget < 0) {
 		iges_fail(c, "it and others refer to each other too many times");
 		return false;
 	}
 	if (i > g->far)
 		g->far = i;
-	if ((g->budget & BUDGET_STEP) == 0) {
+	if ((++g->steps & STEPS_A_LOOK) == 0) {
 		c->st = progress_step(g->progress, (double)g->far / g->n_p);
 		if (c->st != ST_OK)
 			return false;
@@ -180,6 +180,15 @@ void iges_reals(struct iges_cursor *c, double *out, size_t n, int group, size_t 
 		iges_fail(c, "it ends too early or leaves numbers out");
 }
 
+void iges_few(struct iges_cursor *c, double *out, int n)
+{
+	for (int i = 0; i < n; i++) {
+		if (c->ended)
+			iges_fail(c, "it ends too early");
+		out[i] = iges_real(c);
+	}
+}
+
 void iges_string(struct iges_cursor *c, struct text *out)
 {
 	int64_t n = 0;
@@ -253,7 +262,7 @@ enum status iges_open(struct iges *g, int de, int type, struct iges_cursor *c)
 		c->last = c->g->n_p - 1; /* its pointers back say nothing */
 		return ST_OK;
 	}
-	if (g->budget < 0)
+	if (g->budget < 0 && g->reason[0])
 		return ST_INPUT;
 	return c->st == ST_CANCELLED || c->st == ST_RESOURCE
 	               ? c->st

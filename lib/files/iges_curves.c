@@ -17,7 +17,7 @@ static enum status read_arc(struct iges_cursor *c, int depth, struct curve *out)
 {
 	double p[7];
 	(void)depth;
-	iges_reals(c, p, 7, 7, 7);
+	iges_few(c, p, 7);
 	if (c->st != ST_OK)
 		return c->st;
 	double x0 = p[3] - p[1], y0 = p[4] - p[2], x1 = p[5] - p[1], y1 = p[6] - p[2];
@@ -78,7 +78,7 @@ static enum status read_conic(struct iges_cursor *c, int depth, struct curve *ou
 {
 	double p[11];
 	(void)depth;
-	iges_reals(c, p, 11, 11, 11);
+	iges_few(c, p, 11);
 	if (c->st != ST_OK)
 		return c->st;
 	return iges_pass(c->g, make_conic(out, p, p[6], vec3(p[7], p[8], p[6]),
@@ -130,7 +130,7 @@ static enum status read_line(struct iges_cursor *c, int depth, struct curve *out
 	(void)depth;
 	if (iges_entry(c->g, c->de)->form != 0)
 		return iges_fail(c, "a line without ends");
-	iges_reals(c, p, 6, 6, 6);
+	iges_few(c, p, 6);
 	if (c->st != ST_OK)
 		return c->st;
 	return make_line(out, vec3(p[0], p[1], p[2]), vec3(p[3], p[4], p[5]));
@@ -246,7 +246,7 @@ enum status iges_points(struct iges *g, int de, struct point_list *out, struct i
 		return st;
 	if (e->type == 116) {
 		double x[3];
-		iges_reals(c, x, 3, 3, 3);
+		iges_few(c, x, 3);
 		p[0] = vec3(x[0], x[1], x[2]);
 		iges_int(c); /* a symbol for it */
 		st = c->st;

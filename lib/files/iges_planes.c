@@ -24,7 +24,7 @@ static void frame_init(struct frame *f, struct vec3 o, struct vec3 n, const stru
 static enum status read_equation(struct iges_cursor *c, struct frame *f, int *curve)
 {
 	double k[4];
-	iges_reals(c, k, 4, 4, 4);
+	iges_few(c, k, 4);
 	*curve = iges_int(c);
 	for (int i = 0; i < 4; i++)
 		iges_real(c); /* where and how large its symbol is shown */

@@ -80,8 +80,9 @@ struct iges {
 	struct iges_face *faces;   /* owned */
 	struct iges_bound *bounds; /* owned */
 	int n_faces, n_bounds;
-	int64_t budget; /* P lines that may still be read: keeps files that refer to themselves in
-	                   ever more ways from taking ever more time */
+	int64_t budget; /* P lines that may still be read on behalf of other entities: keeps files
+	                   that refer to themselves in ever more ways from taking ever more time */
+	uint64_t steps; /* P lines read */
 	int far;        /* the last P line reached, for progress */
 	struct {
 		int count, first;
@@ -129,6 +130,8 @@ int iges_int(struct iges_cursor *c);
 int iges_count(struct iges_cursor *c, const char *what, int64_t lo, int64_t hi);
 /* n reals to out, `group` at a time, groups `stride` doubles apart. Missing ones fail. */
 void iges_reals(struct iges_cursor *c, double *out, size_t n, int group, size_t stride);
+/* n reals of an entity with so many; empty ones are 0, as the standard has it. */
+void iges_few(struct iges_cursor *c, double *out, int n);
 void iges_string(struct iges_cursor *c, struct text *out);
 /* The most parameters that can follow. */
 int64_t iges_left(const struct iges_cursor *c);

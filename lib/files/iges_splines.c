@@ -7,7 +7,9 @@ enum { CURVE_PROPERTIES = 4, SURFACE_PROPERTIES = 5 };
 /* Parameters of an array must be left for `n` numbers. */
 static bool room_for(struct iges_cursor *c, int64_t n)
 {
-	if (n > iges_left(c))
+	if (c->ended)
+		iges_fail(c, "it ends too early");
+	else if (n > iges_left(c))
 		iges_fail(c, "it needs %lld numbers, more than the file has left", (long long)n);
 	return c->st == ST_OK;
 }

@@ -116,7 +116,7 @@ static enum status read_cylinder(struct iges_cursor *c, int depth, struct surfac
 	struct curve curve = { 0 };
 	double p[3];
 	int directrix = iges_int(c);
-	iges_reals(c, p, 3, 3, 3);
+	iges_few(c, p, 3);
 	enum status st = c->st;
 	if (st == ST_OK)
 		st = iges_curve(c->g, directrix, depth + 1, &curve, NULL);
@@ -142,7 +142,7 @@ static enum status read_offset(struct iges_cursor *c, int depth, struct surface 
 	struct surface s = { 0 };
 	struct vec3 normal;
 	double p[4], error = 0;
-	iges_reals(c, p, 4, 4, 4);
+	iges_few(c, p, 4);
 	int base = iges_int(c);
 	enum status st = c->st;
 	if (st == ST_OK)

@@ -31,7 +31,7 @@ enum status iges_matrix(struct iges *g, int transform, double m[3][4], bool *any
 		enum status st = iges_open(g, transform, 124, &c);
 		if (st != ST_OK)
 			return st;
-		iges_reals(&c, step[0], 12, 12, 12);
+		iges_few(&c, step[0], 12);
 		for (int i = 0; i < 12; i++)
 			if (c.st == ST_OK && !isfinite(step[i / 4][i % 4]))
 				iges_fail(&c, "its transform D%d has a number that is not finite",
@@ -60,7 +60,7 @@ static enum status vector_at(struct iges *g, int de, int type, double w, struct 
 	enum status st = iges_open(g, de, type, &c);
 	if (st != ST_OK)
 		return st;
-	iges_reals(&c, x, 3, 3, 3);
+	iges_few(&c, x, 3);
 	if (c.st != ST_OK)
 		return c.st;
 	st = iges_matrix(g, iges_entry(g, de)->transform, m, &any);
