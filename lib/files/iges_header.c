@@ -186,6 +186,14 @@ static enum status read_scale(struct iges *g, const struct fields *f)
 	                  text);
 }
 
+static void read_resolution(struct iges *g, const struct field *f)
+{
+	const char *s = f->s;
+	double x = 0;
+	if (f->n && number_read(&s, f->s + f->n, &x) && x > 0)
+		g->header.resolution = x;
+}
+
 enum status iges_read_header(struct iges *g)
 {
 	struct fields f = { 0 };
@@ -205,9 +213,6 @@ enum status iges_read_header(struct iges *g)
 		st = read_unit(g, &f);
 	if (st == ST_OK)
 		st = read_scale(g, &f);
-	const char *s = f.at[RESOLUTION_FIELD].s;
-	if (!number_read(&s, s + f.at[RESOLUTION_FIELD].n, &g->header.resolution) ||
-	    !(g->header.resolution > 0))
-		g->header.resolution = 0;
+	read_resolution(g, &f.at[RESOLUTION_FIELD]);
 	return st;
 }
