@@ -71,18 +71,23 @@ static enum status read_range(struct state *s, const struct work *w)
 	    isfinite(s->range[1]) && s->range[0] < s->range[1])
 		return ST_OK;
 	return report_error(&w->report, ST_PARAMETER,
-	                    "parameter range '%s': expected LO,HI with LO below HI", text);
+	                    "--range '%s': expected LO,HI with LO below HI", text);
 }
 
 static enum status read_parameters(struct state *s, const struct work *w)
 {
 	work_size(w, "grid", &s->nu, &s->nv);
 	if (work_flag(w, "png") && (s->nu > PICTURE_SIDE_MAX || s->nv > PICTURE_SIDE_MAX))
-		return report_error(
-		        &w->report, ST_PARAMETER,
-		        "parameter grid %dx%d: a picture has at most %d samples a side; "
-		        "take fewer or leave out --png",
-		        s->nu, s->nv, PICTURE_SIDE_MAX);
+		return report_error(&w->report, ST_PARAMETER,
+		                    "--grid %dx%d: a picture has at most %d samples a side; "
+		                    "take fewer or leave out --png",
+		                    s->nu, s->nv, PICTURE_SIDE_MAX);
+	int width, height;
+	work_size(w, "size", &width, &height);
+	if (work_has(w, "view") && (width > PICTURE_SIDE_MAX || height > PICTURE_SIDE_MAX))
+		return report_error(&w->report, ST_PARAMETER,
+		                    "--size %dx%d: expected at most %d pixels a side", width,
+		                    height, PICTURE_SIDE_MAX);
 	for (int q = 0; q < N_QUANTITIES; q++)
 		if (!strcmp(work_text(w, "quantity"), quantity_table[q].channel))
 			s->shown = q;

@@ -181,15 +181,14 @@ static double median_size(struct sample *s, size_t n)
 	return quantile(s, n, 0.5);
 }
 
-/* Returns whether there is but one value. */
-static bool set_range(struct colormap *m, const struct sample *s, size_t n, double rounding)
+static void set_range(struct colormap *m, const struct sample *s, size_t n, double rounding)
 {
 	double first = s[0].value, last = s[n - 1].value;
 	double largest = fmax(fabs(first), fabs(last));
 	m->lo = quantile(s, n, 0.02);
 	m->hi = quantile(s, n, 0.98);
-	bool constant = last - first <= fmax(1e-4 * largest, rounding);
-	if (constant) {
+	m->one = last - first <= fmax(1e-4 * largest, rounding);
+	if (m->one) {
 		/* one value: in the middle between the neutral color and the end */
 		m->hi = largest > rounding ? round_up(1.5 * largest) : fmax(rounding, 0);
 		m->lo = 0;
@@ -208,7 +207,6 @@ static bool set_range(struct colormap *m, const struct sample *s, size_t n, doub
 		m->lo = m->is_signed ? -largest : fmin(first, 0);
 		m->hi = largest > m->lo ? largest : m->lo + 1;
 	}
-	return constant;
 }
 
 enum status colormap_fit(struct colormap *m, bool is_signed, enum colormap_scale scale,
@@ -222,10 +220,10 @@ enum status colormap_fit(struct colormap *m, bool is_signed, enum colormap_scale
 		return ST_RESOURCE;
 	n = collect(s, values, weights, n);
 	if (n) {
-		bool constant = set_range(m, s, n, rounding);
+		set_range(m, s, n, rounding);
 		double reach = fmax(fabs(m->lo), fabs(m->hi));
 		m->arsinh = scale == COLORMAP_ARSINH ||
-		            (scale == COLORMAP_AUTOMATIC && !constant &&
+		            (scale == COLORMAP_AUTOMATIC && !m->one &&
 		             crowded(s, n, crowd_width * (m->hi - m->lo), crowd_share));
 		double knee = fmin(fmax(median_size(s, n), 1e-4 * reach), 0.2 * reach);
 		m->knee = round_up(knee);
@@ -240,5 +238,6 @@ void colormap_set_range(struct colormap *m, double lo, double hi)
 	m->lo = lo;
 	m->hi = hi;
 	m->by_hand = true;
+	m->one = false;
 	m->knee = round_up(fmax(m->knee * after / before, 1e-4 * after));
 }

@@ -17,6 +17,7 @@ struct colormap {
 	bool is_signed;
 	double lo, hi; /* values at the ends; a signed map has lo = -hi unless set by hand */
 	bool by_hand;  /* lo and hi were given, not found from the values */
+	bool one;      /* all values are the same; lo and hi stand about it */
 	bool arsinh;   /* scale compressed as arsinh around 0 */
 	double knee;   /* of the arsinh scale: where it leaves the line */
 };

@@ -37,6 +37,8 @@ static void describe(struct words *w, const struct key *k)
 	say(w, "%s to %s", a, b);
 	if (m->by_hand)
 		say(w, "%s%s", "range by hand", "");
+	else if (m->one)
+		say(w, "%s%s", "same everywhere", "");
 	else
 		say(w, "%s%s", m->is_signed || m->lo > 0 ? "2 to 98 % of area" : "98 % of area",
 		    "");

@@ -47,10 +47,11 @@ static void count(struct key *k, const struct picture_map *m)
 	k->above = all > 0 ? above / all : 0;
 }
 
-static void axis_ticks(struct ticks *t, const double ends[2], int pixels)
+/* One value alone has no scale. */
+static void axis_ticks(struct ticks *t, const double ends[2], int n, int pixels)
 {
 	t->n = 0;
-	if (ends[1] > ends[0])
+	if (n > 1 && ends[1] > ends[0])
 		ticks_linear(t, ends[0], ends[1], 56.0 / pixels);
 }
 
@@ -64,8 +65,8 @@ static void lay_out(struct place *p, const struct picture_map *m, enum theme the
 	p->top = PAD + HEAD;
 	int foot = 0;
 	if (m->axes) {
-		axis_ticks(&p->u, m->axes, p->w);
-		axis_ticks(&p->v, m->axes + 2, p->h);
+		axis_ticks(&p->u, m->axes, m->width, p->w);
+		axis_ticks(&p->v, m->axes + 2, m->height, p->h);
 		for (int i = 0; i < p->v.n; i++)
 			p->axis = fmax(p->axis, label_width(cr, LABEL_NOTE, p->v.text[i]));
 		p->left += 20 + (int)ceil(p->axis) + 10;

@@ -103,7 +103,7 @@ static exr_result_t begin(exr_context_t *out, const char *name, struct sink *sin
 	for (int c = 0; c < im->n_channels && !e; c++)
 		e = exr_add_channel(f, part, im->channels[c].name,
 		                    im->channels[c].half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT,
-		                    EXR_PERCEPTUALLY_LINEAR, 1, 1);
+		                    EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
 	for (int i = 0; i < im->n_attributes && sink->fd >= 0 && !e; i++)
 		e = exr_attr_set_string(f, part, im->attributes[i].name, im->attributes[i].value);
 	if (!e)

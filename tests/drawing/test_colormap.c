@@ -59,10 +59,10 @@ static void test_stops(void **state)
 static void test_scales(void **state)
 {
 	static const struct colormap maps[] = {
-		{ true, -3, 3, false, false, 1 },
-		{ true, -3, 3, false, true, 0.1 },
-		{ false, 0.5, 1e6, false, true, 10 },
-		{ false, 2, 7, true, false, 1 },
+		{ true, -3, 3, .knee = 1 },
+		{ true, -3, 3, .arsinh = true, .knee = 0.1 },
+		{ false, 0.5, 1e6, .arsinh = true, .knee = 10 },
+		{ false, 2, 7, .by_hand = true, .knee = 1 },
 	};
 	(void)state;
 	for (size_t k = 0; k < sizeof maps / sizeof *maps; k++) {
@@ -138,7 +138,7 @@ static void test_constant(void **state)
 			struct colormap m = fit(is_signed, 0, v, NULL, N);
 			double at = colormap_position(&m, v[0]);
 			assert_true(at > 0.05 && at < 0.95);
-			assert_false(m.arsinh);
+			assert_true(m.one && !m.arsinh);
 		}
 	for (int i = 0; i < N; i++)
 		v[i] = 1e-17f * (float)(i % 5 - 2);
@@ -218,9 +218,8 @@ static void test_ticks_colormap(void **state)
 	(void)state;
 	for (int k = 0; k < 400; k++) {
 		double hi = pow(10, (k % 40) / 2.0 - 10), lo = k / 200 ? -hi : 0;
-		struct colormap m = {
-			lo < 0, lo, hi, false, k / 100 % 2, hi * pow(10, -1 - k % 4)
-		};
+		struct colormap m = { lo < 0, lo, hi, .arsinh = k / 100 % 2,
+			              .knee = hi * pow(10, -1 - k % 4) };
 		struct ticks t;
 		const double gap = 0.14;
 		ticks_colormap(&t, &m, gap);
