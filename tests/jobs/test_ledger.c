@@ -1,0 +1,197 @@
+/* test_ledger.c - what is written is there, whole, after any end; what cannot be read is said. */
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+#include <sqlite3.h>
+
+#include "file.h"
+#include "ledger.h"
+#include "path.h"
+#include "text.h"
+
+static int set_up(void **state)
+{
+	char *folder = strdup("/tmp/batten-ledger-XXXXXX");
+	*state = folder && mkdtemp(folder) ? folder : NULL;
+	return !*state;
+}
+
+static int tear_down(void **state)
+{
+	char *command = text_print("rm -r %s", (char *)*state);
+	int rc = system(command);
+	free(command);
+	free(*state);
+	return rc;
+}
+
+struct found {
+	int n;
+	int64_t ids[1000];
+	enum job_state states[1000];
+	bool front[1000], killed[1000];
+};
+
+static enum status find(void *data, struct Stats *s, bool front, bool killed)
+{
+	struct found *f = data;
+	f->ids[f->n] = s->id;
+	f->states[f->n] = s->state;
+	f->front[f->n] = front;
+	f->killed[f->n++] = killed;
+	stats_finish(s);
+	return ST_OK;
+}
+
+static enum status put(struct ledger *l, int64_t id, enum job_state state, bool durable)
+{
+	struct Stats s;
+	stats_init(&s);
+	s.id = id;
+	s.state = state;
+	struct ledger_change c = { .id = id, .stats = &s, .front = id == 2, .killed = id == 3 };
+	return l->write(l->data, &c, 1, durable, NULL);
+}
+
+static void keeps_records_and_numbers(void **state)
+{
+	char *path = path_join(*state, "jobs.db");
+	struct ledger l;
+	struct found f = { 0 };
+	int64_t last;
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	assert_int_equal(l.load(l.data, find, &f, &last, NULL), ST_OK);
+	assert_int_equal(f.n, 0);
+	assert_int_equal(last, 0);
+	for (int64_t id = 1; id <= 4; id++)
+		assert_int_equal(put(&l, id, JOB_QUEUED, id % 2), ST_OK);
+	assert_int_equal(put(&l, 2, JOB_RUNNING, false), ST_OK);
+	struct ledger_change drop = { .id = 4 };
+	assert_int_equal(l.write(l.data, &drop, 1, false, NULL), ST_OK);
+	ledger_close(&l);
+
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	assert_int_equal(l.load(l.data, find, &f, &last, NULL), ST_OK);
+	assert_int_equal(f.n, 3);
+	assert_int_equal(last, 4);
+	assert_int_equal(f.states[0], JOB_QUEUED);
+	assert_int_equal(f.states[1], JOB_RUNNING);
+	assert_true(f.front[1] && !f.front[0] && f.killed[2] && !f.killed[1]);
+	ledger_close(&l);
+	free(path);
+}
+
+/* A child writes record after record and tells each that is acknowledged, until it is killed. */
+static void a_crash_loses_nothing_acknowledged(void **state)
+{
+	char *path = path_join(*state, "jobs.db");
+	struct ledger l;
+	struct found f = { 0 };
+	int64_t last, told = 0, id;
+	int p[2];
+	assert_int_equal(pipe(p), 0);
+	pid_t child = fork();
+	if (child == 0) {
+		if (ledger_open(&l, path, NULL) != ST_OK)
+			_exit(1);
+		for (id = 1; id < 900; id++)
+			if (put(&l, id, JOB_QUEUED, false) != ST_OK ||
+			    write(p[1], &id, sizeof id) != sizeof id)
+				_exit(1);
+		pause();
+	}
+	close(p[1]);
+	while (told < 300 && read(p[0], &id, sizeof id) == sizeof id)
+		told = id;
+	kill(child, SIGKILL);
+	waitpid(child, NULL, 0);
+	while (read(p[0], &id, sizeof id) == sizeof id)
+		told = id;
+	close(p[0]);
+	assert_true(told >= 300);
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	assert_int_equal(l.load(l.data, find, &f, &last, NULL), ST_OK);
+	assert_true(last >= told);
+	assert_true(f.n >= told);
+	ledger_close(&l);
+	free(path);
+}
+
+static void a_batch_is_written_whole_or_not_at_all(void **state)
+{
+	char *path = path_join(*state, "jobs.db");
+	struct ledger l;
+	struct found f = { 0 };
+	struct report_store store;
+	int64_t last;
+	report_store_init(&store);
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	assert_int_equal(put(&l, 1, JOB_QUEUED, true), ST_OK);
+	/* no file may grow any more: as on a full disk */
+	struct Stats s[500];
+	struct ledger_change c[500];
+	for (int i = 0; i < 500; i++) {
+		stats_init(&s[i]);
+		s[i].id = 2 + i;
+		c[i] = (struct ledger_change){ .id = 2 + i, .stats = &s[i] };
+	}
+	struct rlimit old, none;
+	getrlimit(RLIMIT_FSIZE, &old);
+	none = old;
+	none.rlim_cur = 32768;
+	signal(SIGXFSZ, SIG_IGN);
+	setrlimit(RLIMIT_FSIZE, &none);
+	enum status st = l.write(l.data, c, 500, true, &store.report);
+	setrlimit(RLIMIT_FSIZE, &old);
+	assert_int_equal(st, ST_RESOURCE);
+	assert_non_null(strstr(store.error, "cannot write the ledger"));
+	assert_int_equal(l.load(l.data, find, &f, &last, NULL), ST_OK);
+	assert_int_equal(f.n, 1);
+	/* and when there is room again, it goes on */
+	assert_int_equal(l.write(l.data, c, 500, true, NULL), ST_OK);
+	ledger_close(&l);
+	free(path);
+}
+
+static void what_is_no_ledger_is_refused(void **state)
+{
+	char *path = path_join(*state, "jobs.db"), junk[5000];
+	struct ledger l;
+	struct report_store store;
+	memset(junk, 'j', sizeof junk);
+	assert_int_equal(file_write(path, junk, sizeof junk, NULL), ST_OK);
+	report_store_init(&store);
+	assert_int_equal(ledger_open(&l, path, &store.report), ST_RESOURCE);
+	assert_non_null(strstr(store.error, "jobs.db"));
+	assert_null(l.data);
+	assert_int_equal(unlink(path), 0);
+
+	sqlite3 *db;
+	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+	assert_int_equal(sqlite3_exec(db, "PRAGMA user_version=9", NULL, NULL, NULL), SQLITE_OK);
+	sqlite3_close(db);
+	report_store_init(&store);
+	assert_int_equal(ledger_open(&l, path, &store.report), ST_INPUT);
+	assert_non_null(strstr(store.error, "later batten"));
+	free(path);
+}
+
+#define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		T(keeps_records_and_numbers),
+		T(a_crash_loses_nothing_acknowledged),
+		T(a_batch_is_written_whole_or_not_at_all),
+		T(what_is_no_ledger_is_refused),
+	};
+	return cmocka_run_group_tests_name("ledger", tests, NULL, NULL);
+}
