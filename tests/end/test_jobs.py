@@ -137,6 +137,8 @@ def test_a_failed_job_says_why(project):
 def test_prune_forgets_what_ended(project):
     (job,) = project.submit("shading", TORUS, "--size", "32x32")
     project.run("batten", "wait", job)
+    for name in os.listdir(project.path(".batten", "inputs")):
+        os.utime(project.path(".batten", "inputs", name), (0, 0))  # a young one may be about to be submitted
     project.run("batten", "prune")
     assert not project.jobs()
     assert not os.listdir(project.path(".batten", "inputs")) and os.path.exists(project.path("torus.shade.exr"))
