@@ -59,20 +59,24 @@ static void find_line_end(struct iges *g)
 		g->stride = 80;
 }
 
+/* A line that an IGES file can begin with: its letter, and a number or nothing behind it. */
+static bool is_first_line(const struct line *l)
+{
+	bool good = l->letter == 'S' || l->letter == 'G' || l->letter == 'C' || l->letter == 'B';
+	for (size_t i = l->data + 1; good && i < l->n; i++)
+		good = l->s[i] == ' ' || (l->s[i] >= '0' && l->s[i] <= '9');
+	return good;
+}
+
 bool iges_recognise(const char *bytes, size_t n)
 {
 	struct iges g = { .bytes = bytes, .n = n };
-	struct line l;
+	struct line l = { 0 };
 	size_t at = 0;
 	find_line_end(&g);
-	for (int i = 0; i < 8 && next_line(&g, &at, &l); i++) {
-		if (l.letter && l.letter != 'D' && l.letter != 'P' && l.letter != 'T' &&
-		    strspn(l.s + l.data + 1, " 0123456789") >= l.n - l.data - 1)
-			return true;
-		if (l.n)
-			return false;
-	}
-	return false;
+	while (l.n == 0 && next_line(&g, &at, &l))
+		;
+	return is_first_line(&l);
 }
 
 /* Append an offset to an array that doubles. */
