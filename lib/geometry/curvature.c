@@ -3,6 +3,7 @@
 
 #include "forms.h"
 #include "pole.h"
+#include "surface_second.h"
 
 #define X(name, channel, json, code, title, is_signed, power)                                      \
 	[QUANTITY_##name] = { channel, json, code, title, is_signed, power },
@@ -13,13 +14,14 @@ const struct quantity_row quantity_table[N_QUANTITIES] = { QUANTITY_MAP(X) };
  * True where Su x Sv is far from zero by the derivatives at hand, so that no look at the whole span
  * is needed: neither tangent would vanish within a fiftieth of the span, nor are they near parallel.
  */
-static bool surely_regular(const struct surface_shape *p, const double h[2])
+static bool surely_regular(const struct surface_shape *p, const struct forms *x, const double h[2])
 {
-	const double uu = vec3_length(p->duu) * h[0] * h[0], vv = vec3_length(p->dvv) * h[1] * h[1];
-	const double uv = vec3_length(p->duv) * h[0] * h[1];
-	const double du = vec3_length(p->du) * h[0], dv = vec3_length(p->dv) * h[1];
-	const double area = vec3_length(vec3_cross(p->du, p->dv)) * h[0] * h[1];
-	return du > 0.02 * (uu + uv) && dv > 0.02 * (vv + uv) && area > 0.02 * du * dv;
+	const double hu = h[0] * h[0], hv = h[1] * h[1];
+	const double uu = vec3_dot(p->duu, p->duu) * hu * hu,
+	             vv = vec3_dot(p->dvv, p->dvv) * hv * hv;
+	const double uv = vec3_dot(p->duv, p->duv) * hu * hv;
+	return x->e * hu > 4e-4 * (uu + uv) && x->g * hv > 4e-4 * (vv + uv) &&
+	       x->area2 > 4e-4 * x->e * x->g;
 }
 
 static void spans_at(const struct surface *s, double u, double v, int span[2], double h[2])
@@ -65,16 +67,11 @@ void shape_from_pole(struct surface_shape *out, const struct pole *p)
 
 void surface_shape(const struct surface *s, double u, double v, struct surface_shape *out)
 {
-	struct vec3 d[9];
 	int span[2];
 	double h[2];
-	surface_derivatives(s, u, v, 2, d);
-	out->point = d[0];
-	out->dv = d[1];
-	out->dvv = d[2];
-	out->du = d[3];
-	out->duv = d[4];
-	out->duu = d[6];
+	surface_second(s, u, v, span, out);
+	for (int d = 0; d < 2; d++)
+		h[d] = s->knots[d][span[d] + 1] - s->knots[d][span[d]];
 	out->limit = false;
 	const struct vec3 cross = vec3_cross(out->du, out->dv);
 	const struct forms x = {
@@ -82,8 +79,7 @@ void surface_shape(const struct surface *s, double u, double v, struct surface_s
 		vec3_dot(cross, out->duu),  vec3_dot(cross, out->duv),  vec3_dot(cross, out->dvv),
 		vec3_dot(cross, cross),
 	};
-	spans_at(s, u, v, span, h);
-	if (!surely_regular(out, h)) {
+	if (!surely_regular(out, &x, h)) {
 		const struct pole_scale scale = pole_scale_of(s, span);
 		const double area = sqrt(x.area2);
 		struct pole p;

@@ -82,21 +82,18 @@ void curve_derivatives(const struct curve *c, double t, int d, struct vec3 *out)
 	/* Lengths are taken from the control point that weighs most here, so that differences of
 	 * large coordinates do not eat up the derivatives. */
 	const double *o = p + (size_t)4 * basis_heaviest(basis, k);
-	const point4 center = { o[0] / o[3], o[1] / o[3], o[2] / o[3], 0 };
+	const struct point4 center = point4_center(o, c->rational);
 	for (int i = 0; i <= top; i++) {
-		point4 sum = { 0 };
-		for (int j = 0; j < k; j++) {
-			point4 x;
-			memcpy(&x, p + 4 * j, sizeof x);
-			sum += basis[i * k + j] * (x - x[3] * center);
-		}
+		struct point4 sum = { { 0 }, { 0 } };
+		for (int j = 0; j < k; j++)
+			sum = point4_along(sum, basis[i * k + j], point4_about(p + 4 * j, center));
 		memcpy(h[i], &sum, sizeof sum);
 	}
 	for (int i = 0; i <= d && !c->rational; i++)
 		out[i] = i <= top ? vec3(h[i][0], h[i][1], h[i][2]) : vec3(0, 0, 0);
 	if (c->rational)
 		quotient_curve(top, (const double(*)[4])h, d, out);
-	out[0] = vec3_add(out[0], vec3(center[0], center[1], center[2]));
+	out[0] = vec3_add(out[0], point4_vector(center));
 }
 
 struct vec3 curve_point(const struct curve *c, double t)
@@ -105,13 +102,12 @@ struct vec3 curve_point(const struct curve *c, double t)
 	const int k = c->order;
 	const int s = knots_domain_span(k, c->n, c->knots, c->domain, t);
 	const double *p = c->points + (size_t)4 * (s - k + 1);
-	basis_inline(k, c->knots, s, t, basis, NULL);
-	point4 sum = { 0 };
+	basis_inline(k, c->knots, s, t, basis, NULL, NULL);
+	struct point4 sum = { { 0 }, { 0 } };
 	for (int j = 0; j < k; j++)
-		point4_add(&sum, basis[j], p + 4 * j);
-	if (!c->rational)
-		return vec3(sum[0], sum[1], sum[2]);
-	return vec3(sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]);
+		sum = point4_along(sum, basis[j], point4_load(p + 4 * j));
+	const struct vec3 x = point4_vector(sum);
+	return c->rational ? vec3_scale(x, 1 / point4_weight(sum)) : x;
 }
 
 bool curve_closed(const struct curve *c, double tolerance)

@@ -5,6 +5,7 @@
 
 #include "extrapolate.h"
 #include "forms.h"
+#include "surface_second.h"
 
 const double pole_near = 1e-4, pole_degenerate = 1e-9;
 
@@ -52,12 +53,13 @@ struct pole_scale pole_scale_of(const struct surface *s, const int span[2])
 /* Normal and curvatures by the plain formulas, in the order of PARTS; NaN where they fail. */
 static void plain_values(const struct surface *s, double u, double v, double out[PARTS])
 {
-	struct vec3 d[9];
-	surface_derivatives(s, u, v, 2, d);
-	const struct vec3 du = d[3], dv = d[1], cross = vec3_cross(du, dv);
+	struct surface_shape p;
+	int span[2];
+	surface_second(s, u, v, span, &p);
+	const struct vec3 cross = vec3_cross(p.du, p.dv);
 	const struct forms x = {
-		vec3_dot(du, du),       vec3_dot(du, dv),      vec3_dot(dv, dv),
-		vec3_dot(cross, d[6]),  vec3_dot(cross, d[4]), vec3_dot(cross, d[2]),
+		vec3_dot(p.du, p.du),   vec3_dot(p.du, p.dv),   vec3_dot(p.dv, p.dv),
+		vec3_dot(cross, p.duu), vec3_dot(cross, p.duv), vec3_dot(cross, p.dvv),
 		vec3_dot(cross, cross),
 	};
 	const struct form_values f = forms_values(&x);

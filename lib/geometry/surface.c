@@ -111,22 +111,20 @@ void surface_derivatives(const struct surface *s, double u, double v, int d, str
 	 * large coordinates do not eat up the derivatives. */
 	const double *o = p + 4 * ((size_t)s->n[1] * basis_heaviest(basis[0], ku) +
 	                           basis_heaviest(basis[1], kv));
-	const point4 center = { o[0] / o[3], o[1] / o[3], o[2] / o[3], 0 };
+	const struct point4 center = point4_center(o, s->rational);
 	for (int l = 0; l <= top[1]; l++) {
-		point4 row[ORDER_MAX];
+		struct point4 row[ORDER_MAX];
 		for (int i = 0; i < ku; i++) {
 			const double *q = p + (size_t)4 * s->n[1] * i;
-			row[i] = (point4){ 0 };
-			for (int j = 0; j < kv; j++) {
-				point4 x;
-				memcpy(&x, q + 4 * j, sizeof x);
-				row[i] += basis[1][l * kv + j] * (x - x[3] * center);
-			}
+			row[i] = (struct point4){ { 0 }, { 0 } };
+			for (int j = 0; j < kv; j++)
+				row[i] = point4_along(row[i], basis[1][l * kv + j],
+				                      point4_about(q + 4 * j, center));
 		}
-		for (int k = 0; k <= top[0] && (k + l <= d); k++) {
-			point4 sum = { 0 };
+		for (int k = 0; k <= top[0] && k + l <= d; k++) {
+			struct point4 sum = { { 0 }, { 0 } };
 			for (int i = 0; i < ku; i++)
-				sum += basis[0][k * ku + i] * row[i];
+				sum = point4_along(sum, basis[0][k * ku + i], row[i]);
 			memcpy(h[k * ORDER_MAX + l], &sum, sizeof sum);
 		}
 	}
@@ -138,31 +136,34 @@ void surface_derivatives(const struct surface *s, double u, double v, int d, str
 		}
 	if (s->rational)
 		quotient_surface(top, (const double(*)[4])h, ORDER_MAX, d, out);
-	out[0] = vec3_add(out[0], vec3(center[0], center[1], center[2]));
+	out[0] = vec3_add(out[0], point4_vector(center));
 }
 
 /* The net of a span, contracted with the basis of v and then of u; du, dv only where `first`. */
 BATTEN_INLINE void evaluate(const struct surface *s, double u, double v, const int ku, const int kv,
-                            const bool first, point4 *p, point4 *du, point4 *dv)
+                            const bool first, struct point4 *p, struct point4 *du,
+                            struct point4 *dv)
 {
 	double bu[ORDER_MAX], cu[ORDER_MAX], bv[ORDER_MAX], cv[ORDER_MAX];
 	const int a = knots_domain_span(ku, s->n[0], s->knots[0], s->domain[0], u);
 	const int b = knots_domain_span(kv, s->n[1], s->knots[1], s->domain[1], v);
-	basis_inline(ku, s->knots[0], a, u, bu, first ? cu : NULL);
-	basis_inline(kv, s->knots[1], b, v, bv, first ? cv : NULL);
+	basis_inline(ku, s->knots[0], a, u, bu, first ? cu : NULL, NULL);
+	basis_inline(kv, s->knots[1], b, v, bv, first ? cv : NULL, NULL);
 	const double *q = s->points + 4 * ((size_t)(a - ku + 1) * s->n[1] + b - kv + 1);
-	point4 sum = { 0 }, sum_u = { 0 }, sum_v = { 0 };
+	const struct point4 zero = { { 0 }, { 0 } };
+	struct point4 sum = zero, sum_u = zero, sum_v = zero;
 	for (int i = 0; i < ku; i++, q += (size_t)4 * s->n[1]) {
-		point4 row = { 0 }, row_v = { 0 };
+		struct point4 row = zero, row_v = zero;
 		for (int j = 0; j < kv; j++) {
-			point4_add(&row, bv[j], q + 4 * j);
+			const struct point4 x = point4_load(q + 4 * j);
+			row = point4_along(row, bv[j], x);
 			if (first)
-				point4_add(&row_v, cv[j], q + 4 * j);
+				row_v = point4_along(row_v, cv[j], x);
 		}
-		sum += bu[i] * row;
+		sum = point4_along(sum, bu[i], row);
 		if (first) {
-			sum_u += cu[i] * row;
-			sum_v += bu[i] * row_v;
+			sum_u = point4_along(sum_u, cu[i], row);
+			sum_v = point4_along(sum_v, bu[i], row_v);
 		}
 	}
 	*p = sum;
@@ -172,7 +173,7 @@ BATTEN_INLINE void evaluate(const struct surface *s, double u, double v, const i
 
 /* The commonest orders get code of their own, unrolled. */
 BATTEN_INLINE void evaluate_any(const struct surface *s, double u, double v, const bool first,
-                                point4 *p, point4 *du, point4 *dv)
+                                struct point4 *p, struct point4 *du, struct point4 *dv)
 {
 	const int ku = s->order[0], kv = s->order[1];
 	if (ku == 4 && kv == 4)
@@ -187,28 +188,26 @@ BATTEN_INLINE void evaluate_any(const struct surface *s, double u, double v, con
 
 struct vec3 surface_point(const struct surface *s, double u, double v)
 {
-	point4 p, none;
+	struct point4 p, none;
 	evaluate_any(s, u, v, false, &p, &none, &none);
-	if (!s->rational)
-		return vec3(p[0], p[1], p[2]);
-	double w = 1 / p[3];
-	return vec3(p[0] * w, p[1] * w, p[2] * w);
+	const struct vec3 x = point4_vector(p);
+	return s->rational ? vec3_scale(x, 1 / point4_weight(p)) : x;
 }
 
 void surface_tangents(const struct surface *s, double u, double v, struct vec3 *p, struct vec3 *du,
                       struct vec3 *dv)
 {
-	point4 a, b, c;
+	struct point4 a, b, c;
 	evaluate_any(s, u, v, true, &a, &b, &c);
-	if (s->rational) {
-		const double w = 1 / a[3];
-		a *= w;
-		b = (b - b[3] * a) * w;
-		c = (c - c[3] * a) * w;
-	}
-	*p = vec3(a[0], a[1], a[2]);
-	*du = vec3(b[0], b[1], b[2]);
-	*dv = vec3(c[0], c[1], c[2]);
+	*p = point4_vector(a);
+	*du = point4_vector(b);
+	*dv = point4_vector(c);
+	if (!s->rational)
+		return;
+	const double w = 1 / point4_weight(a);
+	*p = vec3_scale(*p, w);
+	*du = vec3_scale(vec3_along(*du, -point4_weight(b), *p), w);
+	*dv = vec3_scale(vec3_along(*dv, -point4_weight(c), *p), w);
 }
 
 double surface_size(const struct surface *s)

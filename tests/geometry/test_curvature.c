@@ -75,11 +75,11 @@ static void values_agree_with_differences(void **state)
 			struct vec3 a, b, n[2], x[2];
 			struct surface_shape p;
 			surface_shape(&s, u, v, &p);
-			assert_true(surface_normal(&s, u - h, v, &a) &&
-			            surface_normal(&s, u + h, v, &b));
+			assert_true(surface_normal(&s, u - h, v, &a));
+			assert_true(surface_normal(&s, u + h, v, &b));
 			n[0] = vec3_scale(vec3_sub(b, a), 0.5 / h);
-			assert_true(surface_normal(&s, u, v - h, &a) &&
-			            surface_normal(&s, u, v + h, &b));
+			assert_true(surface_normal(&s, u, v - h, &a));
+			assert_true(surface_normal(&s, u, v + h, &b));
 			n[1] = vec3_scale(vec3_sub(b, a), 0.5 / h);
 			const double e = vec3_dot(p.du, p.du), f = vec3_dot(p.du, p.dv),
 			             g = vec3_dot(p.dv, p.dv);
