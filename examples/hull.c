@@ -28,23 +28,23 @@ static const struct line {
 	double round;    /* half breadth that the rounding of the stem adds near it */
 	double bulb;     /* half breadth that the bulb adds */
 } lines[LINES] = {
-	{ 134.0, 0.00, 0.00, 0.00, 0.00, 5.30, 2.0, 0.62, 0.00, 0.00 },
-	{ 138.5, 0.00, 3.00, 0.00, 2.90, 5.30, 2.0, 0.62, 0.30, 0.80 },
-	{ 144.0, 0.00, 6.60, 0.55, 5.50, 5.45, 2.0, 0.62, 0.30, 1.60 },
-	{ 148.6, 1.10, 8.95, 1.85, 7.20, 5.85, 1.9, 0.61, 0.30, 2.15 },
-	{ 149.0, 4.10, 9.45, 3.90, 8.05, 6.60, 1.7, 0.60, 0.30, 1.90 },
-	{ 142.0, 5.30, 9.55, 5.80, 8.45, 7.60, 1.4, 0.58, 0.30, 0.60 },
-	{ 141.6, 7.00, 9.62, 7.60, 8.70, 8.60, 0.9, 0.56, 0.30, 0.10 },
-	{ 144.6, 9.40, 9.68, 9.20, 8.88, 9.60, 0.3, 0.54, 0.40, 0.00 },
-	{ 148.2, 12.0, 9.74, 10.6, 9.00, 10.5, -0.4, 0.52, 0.50, 0.00 },
-	{ 151.2, 14.2, 9.80, 11.8, 9.10, 11.4, -0.9, 0.50, 0.60, 0.00 },
+	{ 134.0, 0.00, 0.00, 0.00, 0.00, 5.30, 2.0, 0.66, 0.00, 0.00 },
+	{ 138.5, 0.00, 2.80, 0.00, 2.90, 5.30, 2.0, 0.66, 0.25, 0.35 },
+	{ 143.6, 0.00, 6.30, 0.55, 5.50, 5.45, 2.0, 0.66, 0.25, 0.80 },
+	{ 147.6, 1.00, 8.85, 1.85, 7.20, 5.85, 1.9, 0.66, 0.25, 1.25 },
+	{ 148.4, 4.00, 9.45, 3.90, 8.05, 6.60, 1.8, 0.65, 0.25, 1.20 },
+	{ 142.0, 5.10, 9.55, 5.80, 8.45, 7.60, 1.6, 0.63, 0.25, 0.40 },
+	{ 141.6, 7.00, 9.62, 7.60, 8.70, 8.60, 1.2, 0.60, 0.25, 0.08 },
+	{ 144.6, 9.40, 9.68, 9.20, 8.88, 9.60, 0.5, 0.57, 0.30, 0.00 },
+	{ 148.4, 12.0, 9.74, 10.6, 9.00, 10.5, -0.4, 0.53, 0.40, 0.00 },
+	{ 151.8, 14.4, 9.80, 11.8, 9.10, 11.4, -1.2, 0.49, 0.50, 0.00 },
 };
 
-/* 0 at x <= 0, 1 at 1, two derivatives at 0, slope `slope` at 1. */
-static double rise(double x, double slope)
+/* 0 at x <= 0, 1 at 1, two derivatives at 0, no inflection between. */
+static double rise(double x)
 {
 	double q = x < 0 ? 0 : x;
-	return q * q * q * ((4 - slope) + (slope - 3) * q);
+	return q * q * q * (2 - q);
 }
 
 /* From 0 at the stem to 1 where the entrance ends, two derivatives there. */
@@ -75,7 +75,7 @@ static struct vec3 line_point(int k, double t)
 	double bulb = l->bulb * t / 0.16 * exp(0.5 - 0.5 * (t / 0.16) * (t / 0.16));
 	double y = sqrt(entrance * entrance + nose * nose) + bulb;
 
-	double stern = rise((t - 0.42) / 0.58, 1.3);
+	double stern = rise((t - 0.42) / 0.58);
 	y += (l->stern_breadth - l->breadth) * stern;
 	double bow = bell(t / (k < 5 ? 0.26 : 0.26 + 0.05 * (k - 4)));
 	double z = l->z + (l->stem_z - l->z) * bow + (l->stern_z - l->z) * stern;
@@ -108,6 +108,12 @@ static enum status make_side(struct surface *out, const struct report *r)
 		st = fit_loft(out, sections, SECTIONS, ORDER, FIT_UNIFORM, r);
 	for (int i = 0; i < SECTIONS; i++)
 		curve_finish(&sections[i]);
+	/* the right angle at the stem, which interpolation has but nearly; the keel goes on */
+	for (int k = 1; k < LINES && st == ST_OK; k++) {
+		struct vec3 stem = surface_get_point(out, k, 0, NULL);
+		double y = surface_get_point(out, k, 1, NULL).y;
+		surface_set_point(out, k, 1, vec3(stem.x, y, stem.z), 1);
+	}
 	return st;
 }
 
@@ -134,20 +140,26 @@ static enum status make_between(struct surface *out, const struct surface *side,
 	return st;
 }
 
-/* Parabolic camber of a fiftieth of the breadth: the middle of three rows goes up. */
-static enum status camber(struct surface *deck)
+/*
+ * Parabolic camber of a fiftieth of the breadth: the middle of three rows across goes up, on the
+ * deck everywhere, on the transom (flat) more and more towards the deck, so that both end alike.
+ */
+static enum status camber(struct surface *s, bool flat)
 {
 	struct surface raised;
-	enum status st = surface_elevate(&raised, deck, 1, 1);
-	surface_finish(deck);
+	enum status st = surface_elevate(&raised, s, 1, 1);
+	surface_finish(s);
 	if (st != ST_OK)
 		return st;
-	for (int i = 0; i < raised.n[0]; i++) {
-		double half = surface_get_point(&raised, i, 0, NULL).y;
+	int last = raised.n[0] - 1;
+	for (int i = 0; i <= last; i++) {
 		struct vec3 p = surface_get_point(&raised, i, 1, NULL);
-		surface_set_point(&raised, i, 1, vec3(p.x, 0, p.z + 0.08 * half), 1);
+		double half = surface_get_point(&raised, flat ? last : i, 0, NULL).y;
+		double part = flat ? (double)i / last : 1;
+		p.z += 0.08 * half * part * part;
+		surface_set_point(&raised, i, 1, vec3(p.x, 0, p.z), 1);
 	}
-	*deck = raised;
+	*s = raised;
 	return ST_OK;
 }
 
@@ -159,11 +171,16 @@ enum status example_hull(struct model *m, const struct report *r)
 		return st;
 	st = make_between(&deck, &side, 0);
 	if (st == ST_OK)
-		st = camber(&deck);
+		st = camber(&deck, false);
 	if (st == ST_OK)
 		st = make_between(&transom, &side, 1);
 	if (st == ST_OK)
+		st = camber(&transom, true);
+	if (st == ST_OK) { /* N outward */
+		surface_reverse(&side, 1);
+		surface_reverse(&transom, 1);
 		st = example_add_mirrored(m, &side, "hull port", "hull starboard", 0x6b7f8c);
+	}
 	if (st == ST_OK)
 		st = example_add(m, &transom, "transom", 0x6b7f8c);
 	if (st == ST_OK)

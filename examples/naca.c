@@ -92,6 +92,7 @@ static enum status make_tip(struct surface *out, const struct surface *wing)
 	out->domain[0][1] = 0.5;
 	out->domain[1][1] = 1;
 	out->rational = true;
+	surface_reverse(out, 1); /* N outward */
 end_lower:
 	curve_finish(&lower);
 end_upper:

@@ -139,15 +139,18 @@ static enum status make_blade(struct surface *out, const struct report *r)
 	}
 	if (st == ST_OK)
 		st = fit_surface(out, p, POINTS, SECTIONS, (int[2]){ 4, 4 }, FIT_UNIFORM, r);
+	if (st == ST_OK)
+		surface_reverse(out, 0); /* N outward */
 	tables_finish(&t);
 	free(p);
 	return st;
 }
 
-/* A cylinder with elliptic ends, the forward one longer; its profile from forward to aft. */
+/* A cylinder with elliptic ends, the forward one longer, a little thicker than where the blades
+ * begin; its profile from forward to aft. */
 static enum status make_hub(struct surface *out, const struct report *r)
 {
-	const double from = 0.17, to = -0.17, at = hub * radius;
+	const double from = 0.17, to = -0.17, at = 1.05 * hub * radius;
 	const struct vec3 zero = { 0, 0, 0 }, x = { 1, 0, 0 }, z = { 0, 0, 1 };
 	struct curve parts[3] = { { 0 } }, profile = { 0 };
 	enum status st = make_arc(&parts[0], zero, x, z, at, 0, M_PI / 2);
