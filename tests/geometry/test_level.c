@@ -289,10 +289,411 @@ static void test_known(void **state)
 	}
 }
 
+/* ---- laws ---- */
+
+struct count {
+	size_t branches, closed, undecided;
+	double length;
+};
+
+static struct count count_of(const struct surface *s, enum level_kind kind, struct vec3 d,
+                             double value)
+{
+	struct level_result x;
+	assert_int_equal(shape_trace(s, kind, d, value, 1e-5, &x, NULL), ST_OK);
+	struct count c = { x.n_branches, x.n_closed, x.n_undecided, x.length };
+	assert_true(x.max_error <= 1.1e-5);
+	for (size_t b = 0; b < x.n_branches; b++)
+		check_curves(s, &x.branches[b]);
+	level_result_finish(&x);
+	return c;
+}
+
+static void assert_same(struct count a, struct count b)
+{
+	assert_int_equal(a.branches, b.branches);
+	assert_int_equal(a.closed, b.closed);
+	assert_int_equal(a.undecided, b.undecided);
+	assert_true(fabs(a.length - b.length) < 1e-4 * (1 + a.length));
+}
+
+/* The right half (u >= 0.5) with a parameter that runs `factor` times as fast: the curve of the
+ * surface stays, derivatives do not agree over the knot line any more. */
+static struct surface stretched(const struct surface *s, double factor)
+{
+	struct surface r;
+	const double half[3] = { 0.5, 0.5, 0.5 };
+	assert_int_equal(surface_insert(&r, s, 0, half, s->order[0] - 1), ST_OK);
+	for (int i = 0; i < r.n[0] + r.order[0]; i++)
+		if (r.knots[0][i] > 0.5)
+			r.knots[0][i] = 0.5 + factor * (r.knots[0][i] - 0.5);
+	r.domain[0][1] = 0.5 + factor * (r.domain[0][1] - 0.5);
+	return r;
+}
+
+/* Other forms of the same shape have the same curves. */
+static void test_forms(void **state)
+{
+	(void)state;
+	const struct vec3 d = { 0.3, 0.2, 0.9 };
+	struct surface s, r;
+	assert_int_equal(shape_make(&s, 4, 14, shape_wavy), ST_OK);
+	for (int k = 0; k < 3; k++) {
+		const double value = cosine(25 + 15 * k), knots[] = { 0.31, 0.5, 0.5, 0.77 };
+		struct count c = count_of(&s, LEVEL_ISOPHOTE, d, value);
+		assert_true(c.branches > 5);
+		for (int way = 0; way < 2; way++) {
+			assert_int_equal(surface_insert(&r, &s, way, knots, 4), ST_OK);
+			assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+			surface_finish(&r);
+			assert_int_equal(surface_elevate(&r, &s, way, 2), ST_OK);
+			assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+			surface_finish(&r);
+		}
+		assert_int_equal(surface_copy(&r, &s), ST_OK);
+		surface_reparametrise(&r, 0, -3, 100);
+		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+		/* exchanged, the normal is turned */
+		assert_int_equal(surface_exchange(&r), ST_OK);
+		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, -value));
+		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, vec3_scale(d, -4), value));
+		surface_finish(&r);
+		r = stretched(&s, 3.7);
+		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+		surface_finish(&r);
+		r = stretched(&s, 1.0);
+		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+		surface_finish(&r);
+	}
+	surface_finish(&s);
+}
+
+/* A fold along u = 0.5: planes go over it, isophotes end on it. */
+static void test_crease(void **state)
+{
+	(void)state;
+	struct surface s, r;
+	struct level_result x;
+	int on_crease = 0;
+	assert_int_equal(shape_make(&s, 4, 14, shape_wavy), ST_OK);
+	r = stretched(&s, 1.0);
+	double at = surface_point(&r, 0.5, 0.2).x;
+	for (int i = 0; i < r.n[0]; i++)
+		for (int j = 0; j < r.n[1]; j++) {
+			struct vec3 p = surface_get_point(&r, i, j, NULL);
+			if (p.x > at)
+				p.z += 0.5 * (p.x - at);
+			surface_set_point(&r, i, j, p, 1);
+		}
+	struct count c = count_of(&r, LEVEL_PLANE, vec3(0, 1, 0), 4.1);
+	assert_int_equal(c.branches, 1);
+	assert_int_equal(shape_trace(&r, LEVEL_ISOPHOTE, vec3(0, 0, 1), cosine(40), 1e-5, &x, NULL),
+	                 ST_OK);
+	assert_int_equal(x.n_undecided, 0);
+	for (size_t b = 0; b < x.n_branches; b++) {
+		const struct curve *uv = &x.branches[b].uv;
+		for (int e = 0; e < 2; e++) {
+			double u = curve_get_point(uv, e ? uv->n - 1 : 0, NULL).x;
+			on_crease += !x.branches[b].closed && u == 0.5;
+		}
+		/* no piece goes over it */
+		double first = curve_point(uv, 0.37 * uv->domain[1]).x;
+		for (int k = 0; k < 100; k++)
+			assert_true((curve_point(uv, uv->domain[1] * (k + 0.5) / 100).x > 0.5) ==
+			            (first > 0.5));
+	}
+	assert_true(on_crease >= 4);
+	level_result_finish(&x);
+	surface_finish(&r);
+	surface_finish(&s);
+}
+
+/* ---- counted by changes of sign on a grid ---- */
+
+enum { GRID = 400, ROW = GRID + 1, EDGES = 2 * ROW * ROW };
+
+static int edge_root(int *parent, int i)
+{
+	while (parent[i] != i)
+		i = parent[i] = parent[parent[i]];
+	return i;
+}
+
+/* Connected runs of the grid's edges on which f (ROW x ROW) changes sign; in a cell with four of
+ * them the middle decides. Edges: along u, then along v. */
+static size_t grid_pieces(const double *f, int *parent)
+{
+	size_t pieces = 0;
+	for (int e = 0; e < EDGES; e++)
+		parent[e] = e;
+	for (int i = 0; i < GRID; i++)
+		for (int j = 0; j < GRID; j++) {
+			const double *g = f + i * ROW + j;
+			const double corner[4] = { g[0], g[ROW], g[ROW + 1], g[1] };
+			const int edge[4] = { i * ROW + j, ROW * ROW + (i + 1) * ROW + j,
+				              i * ROW + j + 1, ROW * ROW + i * ROW + j };
+			int hit[4], n = 0;
+			for (int k = 0; k < 4; k++)
+				if ((corner[k] < 0) != (corner[(k + 1) % 4] < 0))
+					hit[n++] = edge[k];
+			bool middle = g[0] + g[ROW] + g[ROW + 1] + g[1] < 0;
+			int turn = n == 4 && middle != (g[0] < 0);
+			for (int k = 0; k + 1 < n; k += 2)
+				parent[edge_root(parent, hit[k + turn])] =
+				        edge_root(parent, hit[(k + turn + 1) % 4]);
+		}
+	for (int i = 0; i < ROW; i++)
+		for (int j = 0; j < ROW; j++) {
+			int u = i * ROW + j, v = ROW * ROW + u;
+			if (i < GRID && (f[u] < 0) != (f[u + ROW] < 0))
+				pieces += edge_root(parent, u) == u;
+			if (j < GRID && (f[u] < 0) != (f[u + 1] < 0))
+				pieces += edge_root(parent, v) == v;
+		}
+	return pieces;
+}
+
+static const struct {
+	int order[2], n[2];
+	bool rational;
+	enum shape_knots knots;
+	uint64_t seed;
+	double degrees[2];
+} grid_cases[] = {
+	{ { 4, 4 }, { 8, 8 }, false, KNOTS_CLAMPED, 1, { 30, 55 } },
+	{ { 4, 4 }, { 9, 7 }, true, KNOTS_UNEVEN, 2, { 25, 45 } },
+	{ { 3, 5 }, { 8, 8 }, false, KNOTS_OPEN, 3, { 35, 50 } },
+	{ { 3, 4 }, { 7, 7 }, true, KNOTS_CLAMPED, 4, { 30, 90 } },
+	{ { 6, 6 }, { 9, 9 }, true, KNOTS_CLAMPED, 5, { 20, 35 } },
+	{ { 4, 6 }, { 10, 9 }, false, KNOTS_DOUBLE, 6, { 20, 40 } },
+	{ { 9, 8 }, { 9, 8 }, true, KNOTS_CLAMPED, 7, { 15, 25 } },
+	{ { 2, 4 }, { 2, 8 }, false, KNOTS_CLAMPED, 8, { 30, 45 } },
+};
+
+static void test_grid(void **state)
+{
+	(void)state;
+	const struct vec3 light = { 0.1, 0.2, 1 };
+	struct vec3 *normal = malloc(sizeof *normal * ROW * ROW);
+	double *f = malloc(sizeof *f * ROW * ROW);
+	int *parent = malloc(sizeof *parent * EDGES);
+	assert_true(normal && f && parent);
+	for (size_t c = 0; c < sizeof grid_cases / sizeof *grid_cases; c++) {
+		struct surface s =
+		        shape_surface(grid_cases[c].order, grid_cases[c].n, grid_cases[c].rational,
+		                      grid_cases[c].knots, grid_cases[c].seed);
+		for (int i = 0; i < ROW * ROW; i++) {
+			struct vec3 p, su, sv;
+			surface_tangents(&s, in_range(s.domain[0], (double)(i / ROW) / GRID),
+			                 in_range(s.domain[1], (double)(i % ROW) / GRID), &p, &su,
+			                 &sv);
+			normal[i] = vec3_unit(vec3_cross(su, sv));
+		}
+		for (int k = 0; k < 2; k++) {
+			double value = cosine(grid_cases[c].degrees[k]);
+			for (int i = 0; i < ROW * ROW; i++)
+				f[i] = vec3_dot(normal[i], vec3_unit(light)) - value;
+			size_t expected = grid_pieces(f, parent);
+			struct count got = count_of(&s, LEVEL_ISOPHOTE, light, value);
+			if (got.branches != expected)
+				print_error("case %zu, %g degrees: %zu pieces, on the grid %zu\n",
+				            c, grid_cases[c].degrees[k], got.branches, expected);
+			assert_int_equal(got.branches, expected);
+			assert_int_equal(got.undecided, 0);
+		}
+		surface_finish(&s);
+	}
+	free(normal);
+	free(f);
+	free(parent);
+}
+
+/* ---- degenerate, extreme, wrong ---- */
+
+static const struct {
+	const char *name;
+	struct surface (*make)(void);
+	enum level_kind kind;
+	struct vec3 direction;
+	double degrees;
+	size_t undecided;
+	bool flat;
+} touches[] = {
+	{ "a plateau", flat, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, true },
+	{ "a plateau, slanting",
+	  flat,
+	  LEVEL_ISOPHOTE,
+	  { 0, 0.6, 0.8 },
+	  36.869897645844021,
+	  1,
+	  true },
+	{ "a plane in the plane", flat, LEVEL_PLANE, { 0, 0, 1 }, 1, 1, true },
+	{ "a point of a sphere", sphere, LEVEL_ISOPHOTE, { 0.3, 0.4, 0.8 }, 0, 1, false },
+	{ "its pole", sphere, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, false },
+	{ "the other pole", sphere, LEVEL_ISOPHOTE, { 0, 0, 1 }, 180, 1, false },
+	{ "the top of a torus", torus, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, false },
+	{ "a line of a cylinder", cylinder, LEVEL_ISOPHOTE, { 0.6, 0.8, 0 }, 0, 1, false },
+	{ "a plane on a torus", torus, LEVEL_PLANE, { 0, 0, 1 }, 1, 1, false },
+	{ "a plane on a sphere", sphere, LEVEL_PLANE, { 0, 0.6, 0.8 }, 2.5, 1, false },
+};
+
+/* What the level only touches is told as one box, without a curve. */
+static void test_touch(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < sizeof touches / sizeof *touches; i++) {
+		struct surface s = touches[i].make();
+		struct level_result x;
+		double value = touches[i].kind == LEVEL_PLANE ? touches[i].degrees
+		                                              : cosine(touches[i].degrees);
+		assert_int_equal(shape_trace(&s, touches[i].kind, touches[i].direction, value, 1e-5,
+		                             &x, NULL),
+		                 ST_OK);
+		if (x.n_undecided != touches[i].undecided || x.n_branches != 0)
+			print_error("%s: %zu undecided, %zu pieces\n", touches[i].name,
+			            x.n_undecided, x.n_branches);
+		assert_int_equal(x.n_branches, 0);
+		assert_int_equal(x.n_undecided, touches[i].undecided);
+		assert_true(!touches[i].flat || x.undecided[0].flat);
+		level_result_finish(&x);
+		surface_finish(&s);
+	}
+}
+
+/* Where curves cross, the crossing is told and the curves end there. */
+static void test_crossing(void **state)
+{
+	(void)state;
+	struct surface s = torus();
+	struct level_result x;
+	assert_int_equal(shape_trace(&s, LEVEL_ISOPHOTE, vec3(1, 0, 0), 0, 1e-5, &x, NULL), ST_OK);
+	/* u = 90, 270 degrees cross v = 90, 270 degrees: on the corners of patches */
+	assert_true(fabs(x.length - (2 * 2 * pi + 2 * 2 * pi * 3)) < 1e-3);
+	level_result_finish(&x);
+	surface_finish(&s);
+	s = wavy();
+	assert_int_equal(shape_trace(&s, LEVEL_PLANE, vec3(0, 0, 1), 0, 1e-5, &x, NULL), ST_OK);
+	assert_true(x.n_undecided > 0 && x.n_undecided < 60);
+	assert_true(x.n_branches > 0);
+	level_result_finish(&x);
+	surface_finish(&s);
+}
+
+/* The same shape at the highest orders: the degree of f is 98, rational 88. */
+static void test_high_order(void **state)
+{
+	(void)state;
+	const int order[2] = { 4, 4 }, n[2] = { 4, 4 };
+	for (int rational = 0; rational < 2; rational++) {
+		struct surface s = shape_surface(order, n, rational, KNOTS_CLAMPED, 11), r, q;
+		struct count c = count_of(&s, LEVEL_ISOPHOTE, vec3(0, 0, 1), cosine(30));
+		int raise = rational ? 12 : 22;
+		assert_true(c.branches > 0);
+		assert_int_equal(surface_elevate(&r, &s, 0, raise), ST_OK);
+		assert_int_equal(surface_elevate(&q, &r, 1, raise), ST_OK);
+		assert_same(c, count_of(&q, LEVEL_ISOPHOTE, vec3(0, 0, 1), cosine(30)));
+		surface_finish(&q);
+		surface_finish(&r);
+		surface_finish(&s);
+	}
+}
+
+static void test_wrong(void **state)
+{
+	(void)state;
+	static const struct {
+		struct level_field field;
+		double tolerance;
+	} wrong[] = {
+		{ { LEVEL_ISOPHOTE, { 0, 0, 0 }, 0.5 }, 1e-5 },
+		{ { LEVEL_ISOPHOTE, { 0, NAN, 1 }, 0.5 }, 1e-5 },
+		{ { LEVEL_ISOPHOTE, { 0, 0, 1 }, 1.01 }, 1e-5 },
+		{ { LEVEL_ISOPHOTE, { 0, 0, 1 }, -2 }, 1e-5 },
+		{ { LEVEL_PLANE, { 0, 0, 1 }, NAN }, 1e-5 },
+		{ { LEVEL_PLANE, { 0, 0, 1 }, 0.5 }, 0 },
+		{ { LEVEL_PLANE, { 0, 0, 1 }, 0.5 }, -1 },
+		{ { LEVEL_PLANE, { 0, 0, 1 }, 0.5 }, NAN },
+	};
+	struct surface s = sphere();
+	for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+		struct report_store store;
+		struct level *l = NULL;
+		report_store_init(&store);
+		assert_int_equal(
+		        level_create(&l, &s, &wrong[i].field, wrong[i].tolerance, &store.report),
+		        ST_PARAMETER);
+		assert_null(l);
+		assert_int_equal(store.n_errors, 1);
+	}
+	surface_finish(&s);
+}
+
+/* Blocks may be cut anywhere between patches; damaged ones are refused. */
+static void test_blocks(void **state)
+{
+	(void)state;
+	enum { BLOCKS = 729 };
+	struct surface s = wavy();
+	struct level_field field = { LEVEL_ISOPHOTE, { 0, 0, 1 }, cosine(35) };
+	struct level *l;
+	struct text bytes[BLOCKS] = { { 0 } }, whole = { 0 };
+	const char *blocks[BLOCKS];
+	size_t sizes[BLOCKS];
+	struct level_result x, y;
+	assert_int_equal(level_create(&l, &s, &field, 1e-5, NULL), ST_OK);
+	assert_int_equal(level_patches(l), BLOCKS);
+	for (int i = BLOCKS; i-- > 0;)
+		assert_int_equal(level_patch(l, i, &bytes[i]), ST_OK);
+	for (int i = 0; i < BLOCKS; i++) {
+		blocks[i] = bytes[i].s ? bytes[i].s : "";
+		sizes[i] = bytes[i].n;
+		assert_int_equal(level_patch(l, i, &whole), ST_OK);
+	}
+	assert_int_equal(level_join(l, blocks, sizes, BLOCKS, &x, NULL), ST_OK);
+	assert_int_equal(level_join(l, &(const char *){ whole.s }, &whole.n, 1, &y, NULL), ST_OK);
+	assert_int_equal(x.n_branches, y.n_branches);
+	for (size_t b = 0; b < x.n_branches; b++) {
+		const struct curve *p = &x.branches[b].space, *q = &y.branches[b].space;
+		assert_int_equal(p->n, q->n);
+		assert_memory_equal(p->points, q->points, sizeof(double) * 4 * p->n);
+		assert_memory_equal(x.branches[b].uv.points, y.branches[b].uv.points,
+		                    sizeof(double) * 4 * p->n);
+		assert_memory_equal(p->knots, q->knots, sizeof(double) * (p->n + 4));
+	}
+	level_result_finish(&x);
+	level_result_finish(&y);
+
+	struct report_store store;
+	report_store_init(&store);
+	size_t cut = whole.n - 8;
+	assert_int_equal(level_join(l, &(const char *){ whole.s }, &cut, 1, &x, &store.report),
+	                 ST_INTERNAL);
+	assert_int_equal(store.n_errors, 1);
+	/* every early byte damaged in turn: refused or read, never followed out of bounds */
+	for (size_t i = 0; i < 160; i++) {
+		whole.s[i] ^= 0x55;
+		enum status st = level_join(l, &(const char *){ whole.s }, &whole.n, 1, &x, NULL);
+		assert_true(st == ST_OK || st == ST_INTERNAL);
+		assert_true(i >= 8 || st == ST_INTERNAL);
+		if (st == ST_OK)
+			level_result_finish(&x);
+		whole.s[i] ^= 0x55;
+	}
+	for (int i = 0; i < BLOCKS; i++)
+		text_finish(&bytes[i]);
+	text_finish(&whole);
+	level_destroy(l);
+	surface_finish(&s);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_known),
+		cmocka_unit_test(test_known),      cmocka_unit_test(test_forms),
+		cmocka_unit_test(test_crease),     cmocka_unit_test(test_grid),
+		cmocka_unit_test(test_touch),      cmocka_unit_test(test_crossing),
+		cmocka_unit_test(test_high_order), cmocka_unit_test(test_wrong),
+		cmocka_unit_test(test_blocks),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* level_cell.c - halve a patch into cells until signs of coefficients tell what is in each.
  *
- * All coefficients of f of one sign: no curve. All differences in one direction of one sign: f is
- * monotone there, the curve is a graph over the other direction, and the signs of f along the two
+ * All coefficients of f of one sign, and beyond rounding: no curve. All differences in one direction
+ * likewise: f is monotone there, the curve is a graph over the other direction, and the signs of f along the two
  * sides that the graph may leave by tell every arc. Sign tests are exact in floating point, and
  * halving is the same on both sides of a line, so neighbouring cells see the same ends.
  */
@@ -29,16 +29,20 @@ static void undecided_add(struct tracer *t, const struct cell *cell, bool flat)
 	x->flat = flat;
 }
 
-static enum monotone monotone_in(const double *c, int m, int n, int d)
+/* All differences in direction d are beyond rounding and of one sign. */
+static enum monotone monotone_in(const struct tracer *t, const double *c, int d)
 {
+	int m = t->level->degree[0], n = t->level->degree[1];
 	size_t step = d == 0 ? (size_t)n + 1 : 1;
 	int rows = d == 0 ? m : m + 1, columns = d == 0 ? n + 1 : n;
+	double least = ROUNDING_SHARE * t->scale;
 	bool rising = true, falling = true;
 	for (int i = 0; i < rows && (rising || falling); i++) {
 		const double *x = c + (size_t)i * (n + 1);
 		for (int j = 0; j < columns; j++) {
-			rising &= x[j + step] > x[j];
-			falling &= x[j + step] < x[j];
+			double change = x[j + step] - x[j];
+			rising &= change > least;
+			falling &= change < -least;
 		}
 	}
 	return rising ? MONOTONE_RISING : falling ? MONOTONE_FALLING : MONOTONE_NOT;
@@ -56,21 +60,6 @@ static double bend_in(const double *c, int m, int n, int d)
 			sum += fabs(x[j] - 2 * x[j + step] + x[j + 2 * step]);
 	}
 	return sum;
-}
-
-/*
- * f >= 0 touches zero in a corner, and its slope vanishes there too: the curve may be there and
- * leave no sign. (Where the slope does not vanish the neighbour sees a change of sign.)
- */
-static bool touches_in_corner(const double *c, int m, int n)
-{
-	for (int k = 0; k < 4; k++) {
-		size_t at = (size_t)(k / 2 ? m : 0) * (n + 1) + (k % 2 ? n : 0);
-		double u = c[k / 2 ? at - (n + 1) : at + (n + 1)], v = c[k % 2 ? at - 1 : at + 1];
-		if (c[at] == 0 && u == 0 && v == 0)
-			return true;
-	}
-	return false;
 }
 
 /* Change of f over the cell in direction d, in the patch's parameter. */
@@ -205,7 +194,7 @@ static void arcs_find(const struct graph *g)
 static bool cell_decide(struct tracer *t, const struct cell *cell, const double *c)
 {
 	int m = t->level->degree[0], n = t->level->degree[1];
-	enum monotone in[2] = { monotone_in(c, m, n, 0), monotone_in(c, m, n, 1) };
+	enum monotone in[2] = { monotone_in(t, c, 0), monotone_in(t, c, 1) };
 	if (!in[0] && !in[1])
 		return false;
 	int d = in[0] ? 0 : 1;
@@ -231,22 +220,24 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 {
 	int m = t->level->degree[0], n = t->level->degree[1];
 	const struct level_surface *s = t->level->surface;
-	double most = 0;
+	double lo, hi;
 	if (t->failed)
 		return;
-	for (size_t i = 0; i < t->n_field; i++)
-		most = fabs(c[i]) > most ? fabs(c[i]) : most;
-	if (most <= ZERO_SHARE * t->scale) {
+	form_range(c, t->n_field, &lo, &hi);
+	if (larger(-lo, hi) <= ZERO_SHARE * t->scale) {
 		undecided_add(t, &cell, true);
 		return;
 	}
-	int sign = form_sign(c, t->n_field);
-	if (sign < 0 || (sign > 0 && !touches_in_corner(c, m, n)))
+	if (lo > ROUNDING_SHARE * t->scale || hi < -ROUNDING_SHARE * t->scale)
 		return;
-	int side = t->n_side ? form_sign(c + t->n_field, t->n_side) : 1;
-	if (side < 0)
-		return;
-	if (side > 0 && sign == 0 && cell_decide(t, &cell, c))
+	bool one_side = true;
+	if (t->n_side) {
+		form_range(c + t->n_field, t->n_side, &lo, &hi);
+		if (hi < 0)
+			return;
+		one_side = lo >= 0;
+	}
+	if (one_side && cell_decide(t, &cell, c))
 		return;
 	size_t found = t->undecided.n;
 	int deepest = found < FEW_UNDECIDED    ? CELL_DEPTH_MAX

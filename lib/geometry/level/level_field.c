@@ -100,63 +100,64 @@ static bool plane_make(struct tracer *t, double *out)
 	return true;
 }
 
-/* Coefficients of f on one side of the patch: the first, the step, the highest index. */
-struct side {
-	size_t first, step;
-	int degree;
+/* Coefficients of f on a side of the patch, or `inset` rows inside of it: the first, the step, how
+ * many. */
+struct row {
+	size_t first, step, n;
 };
 
-static struct side side_of(const struct tracer *t, int d, bool upper)
+static struct row row_of(const struct tracer *t, int d, bool upper, size_t inset)
 {
-	int m = t->level->degree[0], n = t->level->degree[1];
-	size_t row = (size_t)n + 1;
-	if (d == 0)
-		return (struct side){ upper ? row * m : 0, 1, n };
-	return (struct side){ upper ? (size_t)n : 0, row, m };
+	size_t m = (size_t)t->level->degree[0], n = (size_t)t->level->degree[1];
+	size_t at = d == 0 ? m : n;
+	at = !upper ? inset : at > inset ? at - inset : 0;
+	return d == 0 ? (struct row){ at * (n + 1), 1, n + 1 } : (struct row){ at, n + 1, m + 1 };
 }
 
-static bool side_is_zero(const struct tracer *t, const double *c, int d, bool upper)
+static bool row_is_zero(const struct tracer *t, const double *c, struct row r)
 {
-	struct side s = side_of(t, d, upper);
-	for (int i = 0; i <= s.degree; i++)
-		if (fabs(c[s.first + s.step * i]) > ZERO_SHARE * t->scale)
+	for (size_t i = 0; i < r.n; i++)
+		if (fabs(c[r.first + r.step * i]) > ZERO_SHARE * t->scale)
 			return false;
 	return true;
 }
 
+static void row_clear(double *c, struct row r)
+{
+	for (size_t i = 0; i < r.n; i++)
+		c[r.first + r.step * i] = 0;
+}
+
 /*
  * f is zero all along a side that is one point: the curve goes through the pole, and f without its
- * factor tells in which directions. Where that is zero, too, the level is touched only; then f
- * stays as it is, and the pole undecided.
+ * factor tells in which directions.
  */
 static void take_out_pole(struct tracer *t, double *c, int d, bool upper)
 {
 	const struct level_surface *s = surface_of(t);
 	int m = t->level->degree[0], n = t->level->degree[1];
-	memcpy(t->field, c, sizeof *c * t->n_field);
-	form_scale(t->field, m, n, s->binomial, false);
-	form_divide(t->field, m, n, d, upper);
-	form_scale(t->field, m, n, s->binomial, true);
-	if (side_is_zero(t, t->field, d, upper))
-		return;
-	memcpy(c, t->field, sizeof *c * t->n_field);
+	form_scale(c, m, n, s->binomial, false);
+	form_divide(c, m, n, d, upper);
+	form_scale(c, m, n, s->binomial, true);
 	t->own_field = true;
 }
 
-/* A side on which f is rounding becomes zero, so that both its patches agree that it is. */
+/*
+ * A side on which f is rounding becomes zero, so that both its patches agree that it is. At a pole
+ * the curve goes through it, unless the slope is rounding, too: then the level is only touched.
+ */
 static void clean_sides(struct tracer *t, double *c)
 {
 	const struct level_surface *s = surface_of(t);
 	for (int k = 0; k < 4; k++) {
 		int d = k / 2, upper = k % 2, at = t->place[d] + upper;
-		struct side side = side_of(t, d, upper);
-		if (!side_is_zero(t, c, d, upper))
+		struct row side = row_of(t, d, upper, 0), next = row_of(t, d, upper, 1);
+		if (!row_is_zero(t, c, side))
 			continue;
-		for (int i = 0; i <= side.degree; i++)
-			c[side.first + side.step * i] = 0;
+		row_clear(c, side);
 		size_t edge = d == 0 ? level_edge(s, 0, at, t->place[1])
 		                     : level_edge(s, 1, t->place[0], at);
-		if (s->edges[d][edge] == EDGE_POLE)
+		if (s->edges[d][edge] == EDGE_POLE && !row_is_zero(t, c, next))
 			take_out_pole(t, c, d, upper);
 	}
 }

@@ -91,14 +91,15 @@ WIDE void form_split(double *c, int m, int n, int d, double *lower)
 	}
 }
 
-WIDE int form_sign(const double *c, size_t count)
+WIDE void form_range(const double *c, size_t count, double *lo, double *hi)
 {
-	double lo = c[0], hi = c[0];
+	double least = c[0], most = c[0];
 	for (size_t i = 1; i < count; i++) {
-		lo = c[i] < lo ? c[i] : lo;
-		hi = c[i] > hi ? c[i] : hi;
+		least = c[i] < least ? c[i] : least;
+		most = c[i] > most ? c[i] : most;
 	}
-	return lo >= 0 ? 1 : hi < 0 ? -1 : 0;
+	*lo = least;
+	*hi = most;
 }
 
 /* Bernstein polynomials of degree n and their derivatives. Inlined for the common degrees. */

@@ -27,8 +27,7 @@ void form_divide(double *c, int m, int n, int d, bool upper);
 /* Halve in direction d: `lower` receives the lower half, c keeps the upper one. */
 void form_split(double *c, int m, int n, int d, double *lower);
 
-/* 1: all c >= 0, -1: all c < 0, 0: neither. */
-int form_sign(const double *c, size_t count);
+void form_range(const double *c, size_t count, double *lo, double *hi);
 
 /* Value and derivatives. */
 void form_evaluate(const double *c, int m, int n, double u, double v, double *f, double *fu,

@@ -52,7 +52,23 @@ static bool header_read(const struct level *l, const char **at, const char *end,
 
 static bool strand_valid(const struct strand *s, const struct patch_header *h)
 {
-	return s->n > 0 && s->first >= 0 && s->first <= h->n_pieces - s->n;
+	for (int e = 0; e < 2; e++) {
+		const struct strand_end *x = &s->end[e];
+		if (x->kind < STRAND_BORDER || x->kind > STRAND_CLOSED || x->d < 0 || x->d > 1 ||
+		    x->upper < 0 || x->upper > 1 || !(x->at >= 0 && x->at <= 1))
+			return false;
+	}
+	return s->n > 0 && s->first >= 0 && s->first <= h->n_pieces - s->n &&
+	       (s->end[0].kind == STRAND_CLOSED) == (s->end[1].kind == STRAND_CLOSED);
+}
+
+static bool undecided_valid(const struct undecided *u)
+{
+	for (int d = 0; d < 2; d++)
+		if (u->level[d] < 0 || u->level[d] > CELL_DEPTH_MAX || u->index[d] < 0 ||
+		    u->index[d] >= 1 << u->level[d])
+			return false;
+	return true;
 }
 
 static bool box_add(struct joint *j, int patch, const struct undecided *u)
@@ -107,6 +123,8 @@ static enum status blocks_read(struct joint *j, const char *const *blocks, const
 			for (int k = 0; k < h.n_undecided; k++, at += sizeof(struct undecided)) {
 				struct undecided u;
 				memcpy(&u, at, sizeof u);
+				if (!undecided_valid(&u))
+					return ST_INTERNAL;
 				if (fill && !box_add(j, h.patch, &u))
 					return ST_RESOURCE;
 			}

@@ -110,8 +110,11 @@ static void take_out_factors(const struct maker *k)
 				}
 		if (most_side > ZERO_SHARE * most || most == 0)
 			continue;
-		for (int c = 0; c < 3; c++)
+		for (int c = 0; c < 3; c++) {
+			form_scale(k->n[c], m, n, k->s->binomial, false);
 			form_divide(k->n[c], m, n, d, upper);
+			form_scale(k->n[c], m, n, k->s->binomial, true);
+		}
 	}
 }
 
@@ -131,9 +134,10 @@ static void normal_make(struct maker *k, int patch)
 		term_add(k, U, X, V, -1, i, k->n[i]);
 		term_add(k, X, V, U, -1, i, k->n[i]);
 	}
+	for (int i = 0; i < 3; i++)
+		form_scale(k->n[i], s->degree[0], s->degree[1], s->binomial, true);
 	take_out_factors(k);
 	for (int i = 0; i < 3; i++) {
-		form_scale(k->n[i], s->degree[0], s->degree[1], s->binomial, true);
 		for (size_t c = 0; c < count; c++)
 			out[4 * c + i] = k->n[i][c];
 	}

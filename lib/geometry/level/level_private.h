@@ -23,8 +23,11 @@ enum {
  * tangent. */
 #define SMOOTH_ANGLE 1e-3
 
-/* Coefficients below this share of the field's terms are rounding. */
+/* Where all coefficients are below this share of the field's terms, f counts as zero. */
 #define ZERO_SHARE 1e-12
+
+/* Those and their differences decide nothing below this share: what computing them may have changed. */
+#define ROUNDING_SHARE 4e-15
 
 /* What lies between two patches, or between a patch and nothing. */
 enum edge_kind {
