@@ -25,6 +25,7 @@ build build -Dtests=disabled
 [ ${#files[@]} -gt 0 ] || files=("$top/build/examples/hull.igs")
 
 batten=$top/build/executive/batten
+export BATTEN_JOBS=12 # all of a hull's at once, to have something to see
 mkdir -p "$top/first-run" && cd "$top/first-run" || exit 1
 ids=()
 # job WORKER [--PARAMETER]... - queue it on all files
@@ -34,10 +35,10 @@ job() {
 		ids+=("$id")
 	done < <("$batten" submit "$1" "${files[@]}" "${@:2}")
 }
-job shading --png --edges
-job curvature --png
+job raytrace --png --size 1600x1000 --samples 4
+job shading --png --size 1600x1000 --samples 4 --edges
+job curvature --png --view three-quarter
 job isophotes --svg
-job raytrace --png
 [ ${#ids[@]} -gt 0 ] || exit 1
 "$batten" jobs --follow "${ids[@]}"
 "$batten" wait "${ids[@]}"

@@ -137,13 +137,24 @@ static void print_entity(const json_t *e)
 		printf(" D%-5lld", de);
 	else
 		printf(" %-6s", "");
-	printf(" %-6s %-9s %s", orders, points, json_flag(e, "rational", false) ? "rational " : "");
-	if (json_is_true(json_array_get(closed, 0)))
-		fputs(json_array_size(closed) == 2 ? "closed in u " : "closed ", stdout);
-	if (json_is_true(json_array_get(closed, 1)))
-		fputs("closed in v ", stdout);
+	printf(" %-6s %s", orders, points);
+	const int pad = 9 - (int)strlen(points);
+	const char *const remarks[] = {
+		json_flag(e, "rational", false) ? " rational" : "",
+		!json_is_true(json_array_get(closed, 0)) ? ""
+		: json_array_size(closed) == 2           ? " closed in u"
+		                                         : " closed",
+		json_is_true(json_array_get(closed, 1)) ? " closed in v" : "",
+	};
+	bool first = true;
+	for (size_t k = 0; k < sizeof remarks / sizeof *remarks; k++)
+		if (*remarks[k]) {
+			printf("%*s%s", first && pad > 0 ? pad : 0, "", remarks[k]);
+			first = false;
+		}
 	if (json_int(e, "trims", 0))
-		printf("%lld trims", (long long)json_int(e, "trims", 0));
+		printf("%*s %lld trims", first && pad > 0 ? pad : 0, "",
+		       (long long)json_int(e, "trims", 0));
 	putchar('\n');
 }
 

@@ -37,16 +37,25 @@ bool job_list_add(void *data, const struct Stats *s)
 
 void job_list_put(struct job_list *l, const struct Stats *s)
 {
-	for (size_t i = 0; i < l->n; i++)
-		if (l->jobs[i].id == s->id) {
-			struct Stats copy;
-			if (stats_copy(&copy, s) == ST_OK) {
-				stats_finish(&l->jobs[i]);
-				l->jobs[i] = copy;
-			}
-			return;
+	size_t at = l->n;
+
+	while (at && l->jobs[at - 1].id > s->id)
+		at--;
+	if (at && l->jobs[at - 1].id == s->id) {
+		struct Stats copy;
+		if (stats_copy(&copy, s) == ST_OK) {
+			stats_finish(&l->jobs[at - 1]);
+			l->jobs[at - 1] = copy;
 		}
+		return;
+	}
+	size_t before = l->n;
 	job_list_add(l, s);
+	if (l->n == before)
+		return;
+	struct Stats added = l->jobs[before];
+	memmove(&l->jobs[at + 1], &l->jobs[at], (before - at) * sizeof added);
+	l->jobs[at] = added;
 }
 
 void job_list_finish(struct job_list *l)
