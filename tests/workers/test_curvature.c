@@ -239,7 +239,7 @@ int main(int argc, char **argv)
 {
 	if (argc < 2)
 		return 2;
-	curvature = argv[1];
+	curvature = realpath(argv[1], NULL); /* tests work in other folders */
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(test_places, enter, leave),
 		cmocka_unit_test_setup_teardown(test_figures, enter, leave),
@@ -248,5 +248,7 @@ int main(int argc, char **argv)
 		cmocka_unit_test_setup_teardown(test_quantities, enter, leave),
 		cmocka_unit_test_setup_teardown(test_refused, enter, leave),
 	};
-	return cmocka_run_group_tests(tests, NULL, NULL);
+	int rc = cmocka_run_group_tests(tests, NULL, NULL);
+	free(curvature);
+	return rc;
 }
