@@ -17,7 +17,8 @@ struct vec3 box_center(const struct box *b);
 double box_diagonal(const struct box *b);
 
 /* Box of the part inside the domain, larger than the true one by at most tolerance a side
- * (absolute; 0: as tight as rounding allows within 1e-12 of the size). Errors: ST_RESOURCE. */
+ * (absolute; 0: as tight as rounding allows within 1e-12 of the size, 1e-9 where the extreme is held
+ * along a line askew to the parameters). Errors: ST_RESOURCE. */
 enum status curve_box(const struct curve *c, double tolerance, struct box *out);
 enum status surface_box(const struct surface *s, double tolerance, struct box *out);
 

@@ -136,7 +136,12 @@ double shape_normal_curvature(const struct surface_shape *p, double a, double b)
 {
 	const struct vec3 t = vec3_along(vec3_scale(p->du, a), b, p->dv);
 	const double length2 = vec3_dot(t, t);
-	if (!(length2 > 0))
+	const double most = a * a * vec3_dot(p->du, p->du) + b * b * vec3_dot(p->dv, p->dv);
+	const double tangent =
+	        (a * a + b * b) * fmax(vec3_dot(p->du, p->du), vec3_dot(p->dv, p->dv));
+	/* No direction, or one in which the parameters stand still. */
+	if (!(length2 > 1e-24 * most) || !(length2 > 0) ||
+	    (p->limit && !(length2 > 1e-18 * tangent)))
 		return NAN;
 	return (a * a * vec3_dot(p->duu, p->normal) + 2 * a * b * vec3_dot(p->duv, p->normal) +
 	        b * b * vec3_dot(p->dvv, p->normal)) /

@@ -43,8 +43,14 @@ struct surface_shape {
 
 /*
  * Everything at (u, v). At a degenerate point (a pole) normal and curvatures are the limits from
- * inside the domain where all directions agree, and `limit` is set; NaN where they do not.
- * Accuracy: of a limit 1e-6 relative where the surface is smooth there.
+ * inside the domain where all directions agree, and `limit` is set; NaN where they do not. All
+ * directions means, where an isoparametric line is shrunk to the point, those across it from the
+ * whole line; but normal_u and normal_v, whose directions turn along such a line, are limits at
+ * this u, v. Where only the normal's sign differs (two sides of a pole inside the domain) the
+ * values that do not depend on it are given without a normal. Su x Sv counts as zero below 1e-9 of
+ * its largest in the span.
+ * Accuracy: of a limit 1e-6 relative where the surface is smooth there (1e-9 on a sphere); beside a
+ * degenerate point, where the formulas lose digits, likewise.
  */
 void surface_shape(const struct surface *s, double u, double v, struct surface_shape *out);
 

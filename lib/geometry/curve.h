@@ -24,7 +24,10 @@ enum status curve_init(struct curve *c, int order, int n);
 void curve_finish(struct curve *c); /* a zeroed one is fine */
 enum status curve_copy(struct curve *out, const struct curve *c);
 
-/* Check all invariants, set `rational`, set an empty domain to the knots'. Errors: ST_INPUT. */
+/*
+ * Check all invariants, set `rational`, set an empty domain to the knots', cut what sticks out by
+ * rounding. Weights that are all equal are divided out. Errors: ST_INPUT.
+ */
 enum status curve_check(struct curve *c, const char *what, const struct report *r);
 
 /* Set point i from Cartesian coordinates and weight. */

@@ -20,6 +20,8 @@ struct surface {
 enum status surface_init(struct surface *s, const int order[2], const int n[2]);
 void surface_finish(struct surface *s); /* a zeroed one is fine */
 enum status surface_copy(struct surface *out, const struct surface *s);
+
+/* As curve_check; a surface whose points are all one point is an error too. */
 enum status surface_check(struct surface *s, const char *what, const struct report *r);
 
 void surface_set_point(struct surface *s, int i, int j, struct vec3 p, double w);
@@ -34,8 +36,8 @@ void surface_derivatives(const struct surface *s, double u, double v, int d, str
 struct vec3 surface_point(const struct surface *s, double u, double v);
 
 /* Point, S_u and S_v, the commonest call, without the general one's cost. */
-void surface_tangents(const struct surface *s, double u, double v, struct vec3 *p,
-                      struct vec3 *du, struct vec3 *dv);
+void surface_tangents(const struct surface *s, double u, double v, struct vec3 *p, struct vec3 *du,
+                      struct vec3 *dv);
 
 /* The ends of the domain in direction d join within tolerance, over the whole border. */
 bool surface_closed(const struct surface *s, int d, double tolerance);

@@ -111,6 +111,67 @@ static void values_agree_with_differences(void **state)
 	}
 }
 
+static double gap(struct vec3 a, struct vec3 b)
+{
+	return vec3_length(vec3_sub(a, b)) / (1 + vec3_length(b));
+}
+
+static void derivatives_are_those_of_the_surface(void **state)
+{
+	static const int orders[][2] = { { 2, 2 }, { 2, 5 }, { 3, 3 }, { 4, 4 },
+		                         { 4, 3 }, { 6, 6 }, { 8, 7 }, { 20, 3 } };
+	uint64_t seed = 6;
+	(void)state;
+	for (size_t o = 0; o < sizeof orders / sizeof *orders; o++)
+		for (int how = 0; how < N_SHAPE_KNOTS; how++)
+			for (int rational = 0; rational < 2; rational++) {
+				const int n[2] = { orders[o][0] + 3, orders[o][1] + 4 };
+				struct surface s = shape_surface(orders[o], n, rational, how, 27);
+				for (int i = 0; i < 20; i++) {
+					double at[2];
+					for (int d = 0; d < 2; d++)
+						at[d] = s.domain[d][0] +
+						        (s.domain[d][1] - s.domain[d][0]) *
+						                (i == 0 ? 1 : shape_random(&seed));
+					struct vec3 d[9];
+					struct surface_shape p;
+					surface_derivatives(&s, at[0], at[1], 2, d);
+					surface_shape(&s, at[0], at[1], &p);
+					assert_true(gap(p.point, d[0]) < 1e-13);
+					assert_true(gap(p.du, d[3]) < 1e-12);
+					assert_true(gap(p.dv, d[1]) < 1e-12);
+					assert_true(gap(p.duu, d[6]) < 1e-11);
+					assert_true(gap(p.duv, d[4]) < 1e-11);
+					assert_true(gap(p.dvv, d[2]) < 1e-11);
+				}
+				surface_finish(&s);
+			}
+}
+
+/* Moved a thousand sizes away the shape is the same, up to the rounding of the points. */
+static void far_from_the_origin(void **state)
+{
+	struct surface a = shape_rat20(), b = shape_rat20();
+	uint64_t seed = 12;
+	(void)state;
+	for (int i = 0; i < 20; i++)
+		for (int j = 0; j < 20; j++) {
+			double w;
+			struct vec3 p = surface_get_point(&b, i, j, &w);
+			surface_set_point(&b, i, j, vec3_add(p, vec3(8192, -4096, 16384)), w);
+		}
+	for (int i = 0; i < 300; i++) {
+		struct surface_shape p, q;
+		const double u = shape_random(&seed), v = shape_random(&seed);
+		surface_shape(&a, u, v, &p);
+		surface_shape(&b, u, v, &q);
+		assert_true(gap(q.du, p.du) < 1e-10 && gap(q.duu, p.duu) < 1e-8);
+		assert_true(near(p.value[QUANTITY_GAUSSIAN], q.value[QUANTITY_GAUSSIAN], 1e-8));
+	}
+	surface_finish(&a);
+	surface_finish(&b);
+}
+
 static void expect_pole(const struct surface *s, double u, double v, struct vec3 normal,
                         double mean, double gaussian, double tolerance)
 {
@@ -369,6 +430,8 @@ int main(void)
 		cmocka_unit_test(sphere_is_exact),
 		cmocka_unit_test(torus_is_exact),
 		cmocka_unit_test(values_agree_with_differences),
+		cmocka_unit_test(derivatives_are_those_of_the_surface),
+		cmocka_unit_test(far_from_the_origin),
 		cmocka_unit_test(sphere_poles_have_limits),
 		cmocka_unit_test(poles_at_the_ends_of_u),
 		cmocka_unit_test(turned_profiles),
