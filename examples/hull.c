@@ -2,7 +2,7 @@
  *
  * Lofted through sections from formulas of our own. x runs from the transom (0) forward to the
  * forward perpendicular (142), y to port, z up from the base line; draught 6.2. A section is a
- * cubic B-spline whose control points lie on ten lines that run the length of the ship, from the
+ * quartic B-spline whose control points lie on ten lines that run the length of the ship, from the
  * keel (line 0) to the edge of the deck (line 9). Each line is a formula in t, from 0 at the stem
  * to 1 at the transom; x - stem goes with t^2 near the stem and breadths with t, so all surfaces
  * cross the centre plane at right angles: stem and bulb are round, however fine.
@@ -14,7 +14,7 @@
 #include "fit.h"
 #include "refine.h"
 
-enum { LINES = 10, SECTIONS = 57, ORDER = 4 };
+enum { LINES = 10, SECTIONS = 57, ORDER = 5 };
 
 static const double length = 142;
 
@@ -23,21 +23,21 @@ static const struct line {
 	double stem_x, stem_z; /* where it meets the stem */
 	double breadth, z;     /* half breadth and height amidships */
 	double stern_breadth, stern_z;
-	double hollow;   /* entrance: 3 straightest and finest, -1 fullest */
+	double hollow;   /* entrance: 4 starts along the centre plane, 0 and less is full */
 	double entrance; /* length of the entrance over that of the ship */
 	double round;    /* half breadth that the rounding of the stem adds near it */
 	double bulb;     /* half breadth that the bulb adds */
 } lines[LINES] = {
-	{ 134.0, 0.00, 0.00, 0.00, 0.00, 5.30, 2.0, 0.66, 0.00, 0.00 },
-	{ 138.5, 0.00, 2.80, 0.00, 2.90, 5.30, 2.0, 0.66, 0.25, 0.35 },
-	{ 143.6, 0.00, 6.30, 0.55, 5.50, 5.45, 2.0, 0.66, 0.25, 0.80 },
-	{ 147.6, 1.00, 8.85, 1.85, 7.20, 5.85, 1.9, 0.66, 0.25, 1.25 },
-	{ 148.4, 4.00, 9.45, 3.90, 8.05, 6.60, 1.8, 0.65, 0.25, 1.20 },
-	{ 142.0, 5.10, 9.55, 5.80, 8.45, 7.60, 1.6, 0.63, 0.25, 0.40 },
-	{ 141.6, 7.00, 9.62, 7.60, 8.70, 8.60, 1.2, 0.60, 0.25, 0.08 },
-	{ 144.6, 9.40, 9.68, 9.20, 8.88, 9.60, 0.5, 0.57, 0.30, 0.00 },
-	{ 148.4, 12.0, 9.74, 10.6, 9.00, 10.5, -0.4, 0.53, 0.40, 0.00 },
-	{ 151.8, 14.4, 9.80, 11.8, 9.10, 11.4, -1.2, 0.49, 0.50, 0.00 },
+	{ 134.0, 0.00, 0.00, 0.00, 0.00, 5.30, 2.73, 0.84, 0.00, 0.00 },
+	{ 138.5, 0.00, 2.80, 0.00, 2.90, 5.30, 2.73, 0.84, 0.25, 0.35 },
+	{ 143.6, 0.00, 6.30, 0.55, 5.50, 5.45, 2.73, 0.84, 0.25, 0.80 },
+	{ 147.6, 1.00, 8.85, 1.85, 7.20, 5.85, 2.60, 0.84, 0.25, 1.25 },
+	{ 148.4, 4.00, 9.45, 3.90, 8.05, 6.60, 2.47, 0.83, 0.25, 1.20 },
+	{ 142.0, 5.10, 9.55, 5.80, 8.45, 7.60, 2.22, 0.80, 0.25, 0.40 },
+	{ 141.6, 7.00, 9.62, 7.60, 8.70, 8.60, 1.72, 0.76, 0.25, 0.08 },
+	{ 144.6, 9.40, 9.68, 9.20, 8.88, 9.60, 0.84, 0.72, 0.30, 0.00 },
+	{ 148.4, 12.00, 9.74, 10.60, 9.00, 10.50, -0.30, 0.67, 0.40, 0.00 },
+	{ 151.8, 14.40, 9.80, 11.80, 9.10, 11.40, -1.31, 0.62, 0.50, 0.00 },
 };
 
 /* 0 at x <= 0, 1 at 1, two derivatives at 0, no inflection between. */
@@ -47,11 +47,11 @@ static double rise(double x)
 	return q * q * q * (2 - q);
 }
 
-/* From 0 at the stem to 1 where the entrance ends, two derivatives there. */
+/* From 0 at the stem to 1 where the entrance ends, three derivatives there. */
 static double entrance_curve(double q, double hollow)
 {
 	double rest = q < 1 ? 1 - q : 0;
-	return 1 - rest * rest * rest * (1 + hollow * q);
+	return 1 - rest * rest * rest * rest * (1 + hollow * q);
 }
 
 static double bell(double x)
