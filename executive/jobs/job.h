@@ -64,6 +64,8 @@ struct queue {
 	bool leaving, unsettled;
 	char *fault; /* owned; why the ledger takes nothing */
 	double retry_at;
+	double sync_at;  /* when the ends of jobs must be on the disk */
+	int64_t sync_id; /* one of those jobs */
 };
 
 double queue_now(const struct queue *q);

@@ -36,7 +36,7 @@ static bool change_write(struct book *b, const struct ledger_change *c, struct t
 	sqlite3_bind_int64(s, 1, c->id);
 	if (c->stats) {
 		text_reset(record);
-		stats_write(record, c->stats);
+		stats_write_brief(record, c->stats);
 		if (record->failed)
 			return false;
 		sqlite3_bind_int(s, 2, c->front);

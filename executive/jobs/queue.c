@@ -15,7 +15,7 @@ enum status queue_create(struct queue **out, const struct queue_ports *ports,
 		return ST_RESOURCE;
 	q->ports = *ports;
 	q->limits = *limits;
-	q->retry_at = INFINITY;
+	q->retry_at = q->sync_at = INFINITY;
 	*out = q;
 	return ST_OK;
 }

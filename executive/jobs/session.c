@@ -56,7 +56,7 @@ static void job_text(struct text *t, int64_t id, const struct Stats *s)
 {
 	text_reset(t);
 	text_addf(t, "{\"id\":%lld,\"job\":", (long long)id);
-	stats_write(t, s);
+	stats_write_brief(t, s);
 	text_add(t, "}");
 }
 

@@ -2,6 +2,7 @@
 #include "stats.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -134,12 +135,13 @@ double stats_fraction(const struct Stats *s)
 
 /* Writing: straight to text, for ten thousand jobs are listed at once. */
 
+struct writer {
+	struct text *t;
+	bool brief; /* what is not known is left out */
+};
+
 static void write_string(struct text *t, const char *s)
 {
-	if (!s) {
-		text_add(t, "null");
-		return;
-	}
 	text_add_bytes(t, "\"", 1);
 	for (const char *p = s; *p;) {
 		size_t plain = 0;
@@ -155,116 +157,145 @@ static void write_string(struct text *t, const char *s)
 	text_add_bytes(t, "\"", 1);
 }
 
-/* "key": , with the comma before it where one is needed; the key is one of ours. */
-static void write_key(struct text *t, const char *key)
+/* "key": , with the comma before it where one is needed; the key is one of ours. False, and nothing
+ * or null, for what is not known. */
+static bool write_key(const struct writer *w, const char *key, bool known)
 {
+	struct text *t = w->t;
+	if (!known && w->brief)
+		return false;
 	if (t->n && t->s[t->n - 1] != '{' && t->s[t->n - 1] != '[')
 		text_add_bytes(t, ",", 1);
 	text_add_bytes(t, "\"", 1);
 	text_add(t, key);
 	text_add_bytes(t, "\":", 2);
+	if (!known)
+		text_add_bytes(t, "null", 4);
+	return known;
 }
 
-static void write_text(struct text *t, const char *key, const char *s)
+static void write_text(const struct writer *w, const char *key, const char *s)
 {
-	write_key(t, key);
-	write_string(t, s);
+	if (write_key(w, key, s))
+		write_string(w->t, s);
 }
 
-static void write_number(struct text *t, const char *key, double x)
+static void write_number(const struct writer *w, const char *key, double x)
 {
-	write_key(t, key);
-	if (isfinite(x))
-		text_add_number(t, x);
-	else
-		text_add(t, "null");
+	if (write_key(w, key, isfinite(x)))
+		text_add_number(w->t, x);
 }
 
-static void write_integer(struct text *t, const char *key, int64_t x, bool known)
+static void write_integer(const struct writer *w, const char *key, int64_t x, bool known)
 {
-	write_key(t, key);
-	if (known)
-		text_addf(t, "%lld", (long long)x);
-	else
-		text_add(t, "null");
+	char digits[24];
+	if (write_key(w, key, known))
+		text_add_bytes(w->t, digits,
+		               (size_t)snprintf(digits, sizeof digits, "%lld", (long long)x));
 }
 
-static void write_value(struct text *t, const char *key, const json_t *o)
+static void write_value(const struct writer *w, const char *key, const json_t *o)
 {
-	write_key(t, key);
+	if (w->brief && !json_object_size(o))
+		return;
 	char *s = o && json_object_size(o) ? json_write(o, false) : NULL;
-	text_add(t, s ? s : "{}");
+	write_key(w, key, true);
+	text_add(w->t, s ? s : "{}");
 	free(s);
 }
 
-static void write_inputs(struct text *t, const struct Stats *s)
+static bool write_list(const struct writer *w, const char *key, int n)
 {
-	write_key(t, "inputs");
-	text_add(t, "[");
-	for (int i = 0; i < s->n_inputs; i++) {
-		text_add(t, i ? ",{" : "{");
-		write_text(t, "path", s->inputs[i].path);
-		write_text(t, "entity", s->inputs[i].entity);
-		text_add(t, "}");
-	}
-	text_add(t, "]");
+	if (!n && w->brief)
+		return false;
+	write_key(w, key, true);
+	text_add_bytes(w->t, "[", 1);
+	return true;
 }
 
-static void write_outputs(struct text *t, const struct Stats *s)
+static void write_inputs(const struct writer *w, const struct Stats *s)
 {
-	write_key(t, "outputs");
-	text_add(t, "[");
-	for (int i = 0; i < s->n_outputs; i++) {
-		text_add(t, i ? ",{" : "{");
-		write_text(t, "path", s->outputs[i].path);
-		write_text(t, "kind", s->outputs[i].kind);
-		write_value(t, "figures", s->outputs[i].figures);
-		text_add(t, "}");
+	if (!write_list(w, "inputs", s->n_inputs))
+		return;
+	for (int i = 0; i < s->n_inputs; i++) {
+		text_add(w->t, i ? ",{" : "{");
+		write_text(w, "path", s->inputs[i].path);
+		write_text(w, "entity", s->inputs[i].entity);
+		text_add(w->t, "}");
 	}
-	text_add(t, "]");
+	text_add(w->t, "]");
+}
+
+static void write_outputs(const struct writer *w, const struct Stats *s)
+{
+	if (!write_list(w, "outputs", s->n_outputs))
+		return;
+	for (int i = 0; i < s->n_outputs; i++) {
+		text_add(w->t, i ? ",{" : "{");
+		write_text(w, "path", s->outputs[i].path);
+		write_text(w, "kind", s->outputs[i].kind);
+		write_value(w, "figures", s->outputs[i].figures);
+		text_add(w->t, "}");
+	}
+	text_add(w->t, "]");
+}
+
+static void write_after(const struct writer *w, const struct Stats *s)
+{
+	if (!write_list(w, "after", s->n_after))
+		return;
+	for (int i = 0; i < s->n_after; i++)
+		text_addf(w->t, "%s%lld", i ? "," : "", (long long)s->after[i]);
+	text_add(w->t, "]");
+}
+
+static void write_all(const struct writer *w, const struct Stats *s)
+{
+	text_add(w->t, "{");
+	write_integer(w, "id", s->id, true);
+	write_text(w, "worker", s->worker);
+	write_text(w, "state", job_state_table[s->state].word);
+	write_text(w, "color", w->brief ? NULL : job_state_table[s->state].dark);
+	write_number(w, "fraction", w->brief ? NAN : stats_fraction(s));
+	write_number(w, "eta_s", s->eta_s);
+	write_text(w, "file_name", s->file_name);
+	write_text(w, "path_name", s->path_name);
+	write_integer(w, "pid", s->pid, s->pid > 0);
+	write_text(w, "host", s->host);
+	write_text(w, "group", s->group);
+	write_text(w, "reason", s->reason);
+	write_number(w, "wall_s", s->wall_s);
+	write_number(w, "suspended_s", s->suspended_s);
+	write_number(w, "cpu_s", s->cpu_s);
+	write_integer(w, "peak_kib", s->peak_kib, s->peak_kib >= 0);
+	write_inputs(w, s);
+	write_outputs(w, s);
+	write_text(w, "log", s->log);
+	write_integer(w, "priority", s->priority, s->priority || !w->brief);
+	write_integer(w, "done", s->done, s->total > 0);
+	write_integer(w, "total", s->total, s->total > 0);
+	write_text(w, "phase", s->phase);
+	write_after(w, s);
+	write_value(w, "parameters", s->parameters);
+	write_text(w, "output", s->output);
+	write_integer(w, "threads", s->threads, s->threads > 0);
+	write_integer(w, "memory_mib", s->memory_mib, s->memory_mib > 0);
+	if (write_key(w, "force", s->force || !w->brief))
+		text_add(w->t, s->force ? "true" : "false");
+	write_number(w, "submitted", s->submitted > 0 ? s->submitted : NAN);
+	write_number(w, "started", s->started > 0 ? s->started : NAN);
+	write_number(w, "ended", s->ended > 0 ? s->ended : NAN);
+	text_add(w->t, "}");
 }
 
 void stats_write(struct text *t, const struct Stats *s)
 {
-	text_add(t, "{");
-	write_integer(t, "id", s->id, true);
-	write_text(t, "worker", s->worker);
-	write_text(t, "state", job_state_table[s->state].word);
-	write_text(t, "color", job_state_table[s->state].dark);
-	write_number(t, "fraction", stats_fraction(s));
-	write_number(t, "eta_s", s->eta_s);
-	write_text(t, "file_name", s->file_name);
-	write_text(t, "path_name", s->path_name);
-	write_integer(t, "pid", s->pid, s->pid > 0);
-	write_text(t, "host", s->host);
-	write_text(t, "group", s->group);
-	write_text(t, "reason", s->reason);
-	write_number(t, "wall_s", s->wall_s);
-	write_number(t, "suspended_s", s->suspended_s);
-	write_number(t, "cpu_s", s->cpu_s);
-	write_integer(t, "peak_kib", s->peak_kib, s->peak_kib >= 0);
-	write_inputs(t, s);
-	write_outputs(t, s);
-	write_text(t, "log", s->log);
-	write_integer(t, "priority", s->priority, true);
-	write_integer(t, "done", s->done, s->total > 0);
-	write_integer(t, "total", s->total, s->total > 0);
-	write_text(t, "phase", s->phase);
-	write_key(t, "after");
-	text_add(t, "[");
-	for (int i = 0; i < s->n_after; i++)
-		text_addf(t, "%s%lld", i ? "," : "", (long long)s->after[i]);
-	text_add(t, "]");
-	write_value(t, "parameters", s->parameters);
-	write_text(t, "output", s->output);
-	write_integer(t, "threads", s->threads, s->threads > 0);
-	write_integer(t, "memory_mib", s->memory_mib, s->memory_mib > 0);
-	write_key(t, "force");
-	text_add(t, s->force ? "true" : "false");
-	write_number(t, "submitted", s->submitted > 0 ? s->submitted : NAN);
-	write_number(t, "started", s->started > 0 ? s->started : NAN);
-	write_number(t, "ended", s->ended > 0 ? s->ended : NAN);
-	text_add(t, "}");
+	write_all(&(struct writer){ .t = t }, s);
+}
+
+void stats_write_brief(struct text *t, const struct Stats *s)
+{
+	write_all(&(struct writer){ .t = t, .brief = true }, s);
 }
 
 json_t *stats_to_json(const struct Stats *s)

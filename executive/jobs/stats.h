@@ -87,6 +87,9 @@ json_t *stats_to_json(const struct Stats *s);
 
 /* The same object as text, appended; several times quicker, for long lists. */
 void stats_write(struct text *t, const struct Stats *s);
+/* Likewise without what is not known, and without what follows from the rest (color, fraction): for
+ * packets and the ledger. */
+void stats_write_brief(struct text *t, const struct Stats *s);
 
 /* What is missing is not known. Errors: ST_INPUT (no object, no such state, an input without path),
  * ST_RESOURCE. */

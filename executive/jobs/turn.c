@@ -8,41 +8,64 @@
 /* A job's progress is told ten times a second at most; a ledger that failed is tried each second. */
 static const double tell_s = 0.1, ledger_retry_s = 1;
 
-/* A job that was submitted or has ended must outlast the machine's power; other states are found
- * again from those. */
-static bool must_last(const struct job *job)
+/* Every state is in the ledger before it is told, and so outlasts the service. That jobs have ended
+ * outlasts the machine's power too, but a little later: waiting for the disk at each end would keep
+ * the slots of short jobs empty. One that is lost so is found up to date when it runs again. */
+static const double sync_s = 0.1;
+
+static size_t changes_gather(const struct queue *q, struct ledger_change *changes, bool sync)
 {
-	return job_state_table[job->stats.state].over;
+	size_t n = 0;
+	for (int i = 0; i < q->n_changed; i++) {
+		const struct job *job = q->changed[i];
+		sync &= job->stats.id != q->sync_id || !job->dirty;
+		if (job->dirty)
+			changes[n++] = (struct ledger_change){
+				.id = job->stats.id,
+				.stats = &job->stats,
+				.front = job->front,
+				.killed = job->process && job->cause == CAUSE_KILL,
+			};
+	}
+	/* what was written before goes to the disk with what is written now */
+	const struct job *last = sync ? queue_job(q, q->sync_id) : NULL;
+	if (last)
+		changes[n++] = (struct ledger_change){ .id = last->stats.id,
+			                               .stats = &last->stats,
+			                               .front = last->front };
+	return n;
+}
+
+static void sync_plan(struct queue *q, bool synced)
+{
+	if (synced)
+		q->sync_at = INFINITY;
+	for (int i = 0; i < q->n_changed && !synced; i++) {
+		const struct job *job = q->changed[i];
+		if (!job->dirty || !job_state_table[job->stats.state].over)
+			continue;
+		q->sync_id = job->stats.id;
+		q->sync_at = fmin(q->sync_at, queue_now(q) + sync_s);
+	}
 }
 
 static enum status changes_write(struct queue *q)
 {
-	struct ledger_change *changes = calloc((size_t)q->n_changed + 1, sizeof *changes);
+	struct ledger_change *changes = calloc((size_t)q->n_changed + 2, sizeof *changes);
 	struct report_store store;
-	bool durable = false;
-	size_t n = 0;
+	bool sync = queue_now(q) >= q->sync_at;
 	report_store_init(&store);
 	enum status st = changes ? ST_OK : ST_RESOURCE;
-	for (int i = 0; i < q->n_changed && st == ST_OK; i++) {
-		const struct job *job = q->changed[i];
-		if (!job->dirty)
-			continue;
-		durable |= must_last(job);
-		changes[n++] = (struct ledger_change){
-			.id = job->stats.id,
-			.stats = &job->stats,
-			.front = job->front,
-			.killed = job->process && job->cause == CAUSE_KILL,
-		};
-	}
-	if (st == ST_OK && n)
-		st = q->ports.ledger->write(q->ports.ledger->data, changes, n, durable,
-		                            &store.report);
+	size_t n = changes ? changes_gather(q, changes, sync) : 0;
+	if (n)
+		st = q->ports.ledger->write(q->ports.ledger->data, changes, n, sync, &store.report);
 	free(changes);
 	free(q->fault);
 	q->fault = NULL;
 	q->retry_at = INFINITY;
-	if (st != ST_OK) {
+	if (st == ST_OK) {
+		sync_plan(q, sync);
+	} else {
 		q->fault = strdup(store.error[0] ? store.error : status_text(st));
 		q->retry_at = queue_now(q) + ledger_retry_s;
 	}
@@ -78,7 +101,7 @@ void queue_turn(struct queue *q)
 		line_start(q);
 		line_settle(q); /* one that could not be started may be waited for */
 		failed = q->fault != NULL;
-		if (q->n_changed || failed)
+		if (q->n_changed || failed || queue_now(q) >= q->sync_at)
 			written = (!failed || queue_now(q) >= q->retry_at) &&
 			          changes_write(q) == ST_OK;
 		changes_tell(q, written);
@@ -87,7 +110,7 @@ void queue_turn(struct queue *q)
 
 double queue_deadline(const struct queue *q)
 {
-	double first = q->retry_at;
+	double first = q->fault ? q->retry_at : q->sync_at;
 	for (int i = 0; i < q->n_active; i++)
 		first = fmin(first, q->active[i]->deadline);
 	for (int i = 0; i < q->n_changed; i++)

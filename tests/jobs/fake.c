@@ -69,9 +69,9 @@ static enum status fake_write(void *data, const struct ledger_change *changes, s
                               bool durable, const struct report *r)
 {
 	struct fake *f = data;
-	(void)durable;
 	if (f->full)
 		return report_error(r, ST_RESOURCE, "the disk is full");
+	f->unsynced = durable ? 0 : f->unsynced + (int)n;
 	for (size_t i = 0; i < n; i++) {
 		int64_t id = changes[i].id;
 		assert_in_range(id, 1, FAKE_ROWS - 1);

@@ -24,6 +24,7 @@ struct fake {
 		bool front, killed;
 	} rows[FAKE_ROWS]; /* the ledger, by id */
 	int64_t last;
+	int unsynced; /* changes since the last durable write */
 };
 
 /* Two jobs at once, graces of 2, 3, 10 and 5 s. The queue is made and loaded. */

@@ -3,6 +3,8 @@
  * Parameters: units (how many steps; default 0), gate (a FIFO; each byte in it is leave for one step;
  * without it every step is free). Each step done is a byte in the part file. The output is the name
  * given, with ".txt", holding as many bytes as there were steps.
+ *
+ * As batten-nothing it does nothing at all; as batten-burst it makes `units` packets as fast as it can.
  */
 #include <errno.h>
 #include <fcntl.h>
@@ -80,6 +82,15 @@ static int work(const json_t *job)
 	return 0;
 }
 
+static void burst(const json_t *job)
+{
+	const char *units = json_text(json_object_get(job, "parameters"), "units", "0");
+	int64_t n = 0;
+	number_parse_integer(units, &n);
+	for (int64_t i = 0; i < n; i++)
+		progress(i, n);
+}
+
 int main(int argc, char **argv)
 {
 	if (argc > 1 && !strcmp(argv[1], "--describe")) {
@@ -88,7 +99,13 @@ int main(int argc, char **argv)
 	}
 	play_hello(play_role(argv[0]));
 	json_t *job = play_start();
-	int rc = work(job);
+	bool works = !strcmp(play_role(argv[0]), "good");
+	int rc = works ? work(job) : 0;
+	if (!works) {
+		burst(job);
+		play_result("/dev/null");
+		play_done();
+	}
 	json_decref(job);
 	return rc;
 }

@@ -13,6 +13,7 @@
 #include <sys/pidfd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -49,6 +50,8 @@ static void players_add(const struct place *p)
 	char *folder = path_join(p->project.hidden, "workers");
 	assert_int_equal(folder_make(folder, 0777, NULL), ST_OK);
 	player_add(p, folder, "good", "good-worker");
+	player_add(p, folder, "nothing", "good-worker");
+	player_add(p, folder, "burst", "good-worker");
 	for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
 		player_add(p, folder, bad[i], "bad-worker");
 	free(folder);
@@ -122,6 +125,19 @@ static int take_away(const char *path, const struct stat *s, int type, struct FT
 	return remove(path);
 }
 
+/* A service that this process started ends well: no leak, no fault that a checked build would find. */
+static void service_check(const struct place *p)
+{
+	char *path = path_join(p->project.hidden, "logs/service.log"), *text = NULL;
+	size_t n = 0;
+	int status = 0;
+	if (waitpid(p->service, &status, 0) == p->service && status) {
+		file_read(path, 1 << 20, &text, &n, NULL);
+		fail_msg("the service ends with %x: %s", (unsigned)status, text ? text : "");
+	}
+	free(path);
+}
+
 void place_finish(struct place *p)
 {
 	if (p->client) {
@@ -131,6 +147,7 @@ void place_finish(struct place *p)
 		assert_true(fd < 0 || process_gone(fd));
 		if (fd >= 0)
 			close(fd);
+		service_check(p);
 	}
 	if (p->held >= 0)
 		close(p->held);

@@ -459,6 +459,19 @@ static void a_full_ledger_stops_nothing_that_runs(void **state)
 	assert_int_equal(fake_submit(f, 0, 1, 0), 4);
 }
 
+static void submissions_and_ends_outlast_the_power(void **state)
+{
+	struct fake *f = *state;
+	int64_t id = fake_submit(f, 0, 1, 0);
+	fake_success(f, id);
+	assert_true(f->unsynced > 0);
+	fake_wait(f, 0.2);
+	assert_int_equal(f->unsynced, 0);
+	assert_string_equal(fake_row(f, id), "done");
+	fake_wait(f, 100);
+	assert_true(isinf(queue_deadline(f->q))); /* and then there is rest */
+}
+
 static void a_refused_start_fails_the_job_alone(void **state)
 {
 	struct fake *f = *state;
@@ -614,6 +627,7 @@ int main(void)
 		T(a_restart_loses_what_cannot_go_on),
 		T(leaving_queues_what_runs),
 		T(a_full_ledger_stops_nothing_that_runs),
+		T(submissions_and_ends_outlast_the_power),
 		T(a_refused_start_fails_the_job_alone),
 		T(time_left_leaves_suspended_time_out),
 		T(progress_is_told_ten_times_a_second),

@@ -42,6 +42,35 @@ static void record_survives_json(void **state)
 	stats_finish(&copy);
 }
 
+static void brief_records_read_back_the_same(void **state)
+{
+	static const char *const records[] = { full, "{}",
+		                               "{\"id\":3,\"priority\":2,\"force\":true}" };
+	(void)state;
+	for (size_t i = 0; i < sizeof records / sizeof *records; i++) {
+		struct Stats s, again;
+		struct text t = { 0 };
+		json_t *o = json_loads(records[i], 0, NULL);
+		assert_int_equal(stats_from_json(&s, o), ST_OK);
+		stats_write_brief(&t, &s);
+		json_t *brief = json_loads(t.s, 0, NULL);
+		assert_non_null(brief);
+		const char *key;
+		json_t *value;
+		json_object_foreach(brief, key, value) assert_false(json_is_null(value));
+		assert_int_equal(stats_from_json(&again, brief), ST_OK);
+		json_t *a = stats_to_json(&s), *b = stats_to_json(&again);
+		assert_true(json_equal(a, b));
+		json_decref(a);
+		json_decref(b);
+		json_decref(o);
+		json_decref(brief);
+		text_finish(&t);
+		stats_finish(&s);
+		stats_finish(&again);
+	}
+}
+
 static void what_is_not_known_is_null_and_never_left_out(void **state)
 {
 	static const char *const unknown[] = {
@@ -123,6 +152,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(record_survives_json),
+		cmocka_unit_test(brief_records_read_back_the_same),
 		cmocka_unit_test(what_is_not_known_is_null_and_never_left_out),
 		cmocka_unit_test(wrong_records_are_refused),
 		cmocka_unit_test(wrong_types_are_not_known),

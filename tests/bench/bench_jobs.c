@@ -1,0 +1,211 @@
+/* bench_jobs.c - what the service costs: a thousand jobs that do nothing beside xargs, the way from
+ * submit to HELLO, suspending, packets, long lists, rest. Real processes in a throw-away project. */
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "place.h"
+#include "file.h"
+#include "ledger.h"
+#include "path.h"
+#include "text.h"
+
+enum { JOBS = 1000, LIST = 10000, RUNS = 31, PACKETS = 400000, WRITES = 300 };
+
+static double now(void)
+{
+	struct timespec t;
+	clock_gettime(CLOCK_MONOTONIC, &t);
+	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int compare(const void *a, const void *b)
+{
+	const double x = *(const double *)a, y = *(const double *)b;
+	return (x > y) - (x < y);
+}
+
+static double median(double *x, int n)
+{
+	qsort(x, (size_t)n, sizeof *x, compare);
+	return x[n / 2];
+}
+
+/* User and system time of a process so far. */
+static double cpu_of(pid_t pid)
+{
+	clockid_t clock;
+	struct timespec t = { 0 };
+	if (!clock_getcpuclockid(pid, &clock))
+		clock_gettime(clock, &t);
+	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void submit_many(struct place *p, const char *worker, int n)
+{
+	char *path = path_join(p->folder, "jobs.json");
+	json_t *jobs = json_array();
+	for (int i = 0; i < n; i++)
+		json_array_append_new(
+		        jobs, json_pack("{s:s, s:s, s:s, s:s, s:s}", "worker", worker, "output",
+		                        "/tmp/none", "file_name", "hull.igs", "path_name",
+		                        "/home/somebody/hulls/hull.igs", "group", "many"));
+	char *text = json_dumps(jobs, 0);
+	if (file_write(path, text, strlen(text), NULL) != ST_OK ||
+	    client_request(p->client, MESSAGE_SUBMIT, json_pack("{s:[s]}", "jobs", path), NULL,
+	                   NULL, NULL, NULL) != ST_OK)
+		exit(1);
+	json_decref(jobs);
+	free(text);
+	free(path);
+}
+
+static void thousand_jobs(void)
+{
+	struct place p;
+	place_init(&p, "BATTEN_JOBS=2 BATTEN_NICE=0");
+	double began = now();
+	submit_many(&p, "nothing", JOBS);
+	client_request(p.client, MESSAGE_WAIT, json_pack("{s:s}", "group", "many"), NULL, NULL,
+	               NULL, NULL);
+	double ours = now() - began;
+	if (place_job(&p, JOBS)->state != JOB_DONE)
+		exit(1);
+	began = now();
+	int rc = system("seq 1000 | xargs -P2 -n1 true");
+	double theirs = now() - began;
+	printf("1000 jobs that do nothing, two at a time: %.2f s, xargs -P2 %.2f s, ratio %.2f%s\n",
+	       ours, theirs, ours / theirs, rc ? " (xargs failed)" : "");
+	place_finish(&p);
+}
+
+static void submit_to_hello(void)
+{
+	struct place p;
+	double t[RUNS], start[RUNS];
+	place_init(&p, "BATTEN_JOBS=4 BATTEN_NICE=0");
+	for (int i = 0; i < RUNS; i++) {
+		t[i] = now();
+		int64_t id = place_submit(&p, "stubborn", 0, NULL);
+		place_until(&p, id, JOB_RUNNING);
+		t[i] = now() - t[i];
+		place_crash(&p);
+		start[i] = now();
+		place_connect(&p);
+		start[i] = now() - start[i];
+		kill(place_job(&p, id)->pid, SIGKILL);
+		place_end(&p, id);
+	}
+	double up = median(t, RUNS);
+	printf("submit to HELLO: %.1f ms, service started for it: %.1f ms more\n", up * 1e3,
+	       median(start, RUNS) * 1e3);
+	place_finish(&p);
+}
+
+static void suspend_and_activate(void)
+{
+	struct place p;
+	double t[RUNS], u[RUNS];
+	place_init(&p, "");
+	int64_t id = place_submit(&p, "stubborn", 0, NULL);
+	place_until(&p, id, JOB_RUNNING);
+	for (int i = 0; i < RUNS; i++) {
+		t[i] = now();
+		place_ask(&p, MESSAGE_SUSPEND, id);
+		t[i] = now() - t[i];
+		u[i] = now();
+		place_ask(&p, MESSAGE_ACTIVATE, id);
+		u[i] = now() - u[i];
+	}
+	printf("suspend: %.2f ms, activate: %.2f ms, from request to answer\n",
+	       median(t, RUNS) * 1e3, median(u, RUNS) * 1e3);
+	kill(place_job(&p, id)->pid, SIGKILL);
+	place_end(&p, id);
+	place_finish(&p);
+}
+
+static void packets(void)
+{
+	struct place p;
+	place_init(&p, "BATTEN_NICE=0");
+	double began = now();
+	int64_t id = place_submit(&p, "burst", PACKETS, NULL);
+	const struct Stats *s = place_end(&p, id);
+	double took = now() - began;
+	printf("packets from one worker, one write each: %.0f a second%s\n", PACKETS / took,
+	       s->state == JOB_DONE ? "" : " (the job failed)");
+	place_finish(&p);
+}
+
+static void long_list_and_rest(void)
+{
+	struct place p;
+	double t[RUNS];
+	place_init(&p, "BATTEN_JOBS=1");
+	int64_t id = place_submit(&p, "stubborn", 0, NULL);
+	place_until(&p, id, JOB_RUNNING);
+	double began = now();
+	submit_many(&p, "nothing", LIST);
+	double submit = now() - began;
+	double cpu = cpu_of(p.service), own = cpu_of(getpid());
+	for (int i = 0; i < RUNS; i++) {
+		t[i] = now();
+		client_request(p.client, MESSAGE_LIST, json_object(), NULL, NULL, NULL, NULL);
+		t[i] = now() - t[i];
+	}
+	printf("10,000 queued jobs: submitted in %.0f ms, listed in %.1f ms (CPU: service %.1f ms, client "
+	       "%.1f ms)\n",
+	       submit * 1e3, median(t, RUNS) * 1e3, (cpu_of(p.service) - cpu) / RUNS * 1e3,
+	       (cpu_of(getpid()) - own) / RUNS * 1e3);
+	double before = cpu_of(p.service);
+	sleep(3); /* what is measured is rest */
+	printf("idle service with one client: %.3f %% of a core\n",
+	       (cpu_of(p.service) - before) / 3 * 100);
+	client_request(p.client, MESSAGE_KILL, json_pack("{s:s}", "group", "many"), NULL, NULL,
+	               NULL, NULL);
+	kill(place_job(&p, id)->pid, SIGKILL);
+	place_end(&p, id);
+	place_finish(&p);
+}
+
+static void durable_change(void)
+{
+	struct place p;
+	struct ledger l;
+	struct Stats s;
+	double t[2][WRITES];
+	place_init(&p, "");
+	char *path = path_join(p.folder, "bench.db");
+	if (ledger_open(&l, path, NULL) != ST_OK)
+		exit(1);
+	stats_init(&s);
+	for (int i = 0; i < 2 * WRITES; i++) {
+		s.id = i + 1;
+		struct ledger_change c = { .id = s.id, .stats = &s };
+		double began = now();
+		l.write(l.data, &c, 1, i >= WRITES, NULL);
+		t[i / WRITES][i % WRITES] = now() - began;
+	}
+	printf("state change in the ledger: %.0f us, through a power cut %.0f us\n",
+	       median(t[0], WRITES) * 1e6, median(t[1], WRITES) * 1e6);
+	ledger_close(&l);
+	free(path);
+	place_finish(&p);
+}
+
+int main(void)
+{
+	signal(SIGPIPE, SIG_IGN);
+	thousand_jobs();
+	submit_to_hello();
+	suspend_and_activate();
+	packets();
+	long_list_and_rest();
+	durable_change();
+	return 0;
+}
