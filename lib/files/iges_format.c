@@ -7,6 +7,7 @@
 
 #include "file.h"
 #include "number.h"
+#include "refine.h"
 
 enum { HEADER_COLUMNS = 72, DATA_COLUMNS = 64, SEQUENCE_MAX = 9999999 };
 
@@ -39,22 +40,33 @@ static void put_int(struct writer *w, int x, char delimiter)
 	put(w, s, (size_t)snprintf(s, sizeof s, "%d%c", x, delimiter));
 }
 
-/* Reals of IGES have a point, and E before the exponent. */
-static void put_real(struct writer *w, double x, char delimiter)
+enum { REAL_SIZE = NUMBER_SIZE + 2 };
+
+/* Reals of IGES have a point, and E before the exponent. Returns the length. */
+static size_t real_text(char out[REAL_SIZE], double x)
 {
-	char s[NUMBER_SIZE], out[NUMBER_SIZE + 4];
+	char s[NUMBER_SIZE];
 	size_t n = (size_t)number_write(s, x), m = 0;
 	bool point = memchr(s, '.', n) != NULL;
 	for (size_t i = 0; i < n; i++) {
-		if ((s[i] == 'e' || s[i] == 'E') && !point)
+		bool exponent = s[i] == 'e' || s[i] == 'E';
+		if (exponent && !point)
 			out[m++] = '.';
-		point |= s[i] == 'e' || s[i] == 'E';
-		out[m++] = s[i] == 'e' ? 'E' : s[i];
+		point |= exponent;
+		out[m++] = exponent ? 'E' : s[i];
 	}
 	if (!point)
 		out[m++] = '.';
-	out[m++] = delimiter;
-	put(w, out, m);
+	out[m] = '\0';
+	return m;
+}
+
+static void put_real(struct writer *w, double x, char delimiter)
+{
+	char s[REAL_SIZE + 1];
+	size_t n = real_text(s, x);
+	s[n++] = delimiter;
+	put(w, s, n);
 }
 
 static void put_reals(struct writer *w, const double *x, size_t n)
@@ -187,6 +199,38 @@ static const struct curve *curve_of(const struct entity *e)
 	return e->kind == ENTITY_CURVE_ON_SURFACE && e->space.order ? &e->space : NULL;
 }
 
+/* Readers that overlook the range U0 .. V1 must see what is meant too: a part is cut out. */
+static enum status curve_meant(struct curve *out, const struct curve *c)
+{
+	if (c->domain[0] == c->knots[c->order - 1] && c->domain[1] == c->knots[c->n])
+		return curve_copy(out, c);
+	return curve_part(out, c, c->domain[0], c->domain[1]);
+}
+
+static enum status surface_meant(struct surface *out, const struct surface *s)
+{
+	bool whole = true;
+	for (int d = 0; d < 2; d++)
+		whole &= s->domain[d][0] == s->knots[d][s->order[d] - 1] &&
+		         s->domain[d][1] == s->knots[d][s->n[d]];
+	return whole ? surface_copy(out, s) : surface_part(out, s, s->domain);
+}
+
+/* The parameters of a curve or surface; false where there was no memory for them. */
+static bool put_shape(struct writer *w, const struct curve *curve, const struct surface *surface)
+{
+	struct curve c = { 0 };
+	struct surface s = { 0 };
+	enum status st = curve ? curve_meant(&c, curve) : surface_meant(&s, surface);
+	if (st == ST_OK && curve)
+		put_curve(w, &c);
+	else if (st == ST_OK)
+		put_surface(w, &s);
+	curve_finish(&c);
+	surface_finish(&s);
+	return st == ST_OK;
+}
+
 static void put_entity(struct writer *w, const struct entity *e)
 {
 	const struct curve *curve = curve_of(e);
@@ -196,10 +240,7 @@ static void put_entity(struct writer *w, const struct entity *e)
 	int name = e->name && e->name[0] ? put_name(w, e->name) : 0;
 	int from = w->n_p;
 	w->de = w->n_d + 1;
-	if (curve)
-		put_curve(w, curve);
-	else
-		put_surface(w, &e->geometry);
+	w->data.failed |= !put_shape(w, curve, &e->geometry);
 	put_int(w, 0, ','); /* pointers to associations */
 	put_int(w, name != 0, name ? ',' : ';');
 	if (name)
@@ -249,19 +290,20 @@ static double largest_coordinate(const struct model *m)
 static int put_global(const struct model *m, struct text *out)
 {
 	struct text t = { 0 };
-	char unit[16] = "MM";
+	char unit[16] = "MM", real[REAL_SIZE];
 	if (m->unit)
 		snprintf(unit, sizeof unit, "%s", m->unit);
 	for (char *s = unit; *s; s++)
 		*s = (char)toupper((unsigned char)*s);
 	text_addf(&t, "1H,,1H;,,,6Hbatten,%zuH%s,32,38,6,308,15,,",
 	          strlen("batten " BATTEN_VERSION), "batten " BATTEN_VERSION);
-	text_add_number(&t, m->scale);
-	text_addf(&t, ",%d,%zuH%s,1,,,", unit_flag(m->unit), strlen(unit), unit);
+	real_text(real, m->scale);
+	text_addf(&t, "%s,%d,%zuH%s,1,,,", real, unit_flag(m->unit), strlen(unit), unit);
 	double largest = largest_coordinate(m);
-	text_add_number(&t, 1e-9 * (largest > 0 ? largest : 1));
-	text_add(&t, ",");
-	text_add_number(&t, largest);
+	real_text(real, 1e-9 * (largest > 0 ? largest : 1));
+	text_addf(&t, "%s,", real);
+	real_text(real, largest);
+	text_add(&t, real);
 	text_add(&t, ",,,11,0;");
 	int lines = put_header(out, 'G', t.s ? t.s : "", t.n);
 	out->failed |= t.failed;

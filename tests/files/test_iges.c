@@ -611,6 +611,41 @@ static void written_is_read_again(void **state)
 	text_finish(&t);
 }
 
+/* Programs that overlook U0 .. V1 must see the part that is meant: it is written alone. */
+static void only_what_is_meant_is_written(void **state)
+{
+	static const struct made_entity entities[MADE_MAX] = {
+		{ 128, 0,
+		  "128,2,1,1,1,0,0,1,0,0,0.,0.,1.,2.,2.," KNOTS4
+		  "1.,1.,1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,2.,"
+		  "1.,0.,0.,1.,0.,1.,1.,0.,2.,1.,3.,.5,1.75,0.,1.;" },
+		{ 126, 0,
+		  "126,2,1,0,0,1,0,0.,0.,1.,2.,2.,1.,1.,1.,0.,0.,0.,1.,0.,0.,2.,1.,0.,.5,1.75;" },
+	};
+	const struct made_file f = { 0 };
+	struct model a, b;
+	struct report_store store;
+	struct text t = { 0 };
+	(void)state;
+	assert_int_equal(read_made(&a, &f, entities, &store), ST_OK);
+	iges_format(&a, &t);
+	assert_false(t.failed);
+	model_init(&b);
+	assert_int_equal(iges_parse(&b, t.s, t.n, "y.igs", NULL, NULL), ST_OK);
+	const struct surface *s = &b.entities[0].geometry;
+	const struct curve *c = &b.entities[1].curve;
+	assert_true(s->knots[0][1] == 0.5 && s->knots[0][s->n[0]] == 1.75);
+	assert_true(c->knots[1] == 0.5 && c->knots[c->n] == 1.75);
+	for (double u = 0.5; u <= 1.75; u += 0.25) {
+		assert_point(0, surface_point(s, u, 0.5),
+		             surface_point(&a.entities[0].geometry, u, 0.5));
+		assert_point(1, curve_point(c, u), curve_point(&a.entities[1].curve, u));
+	}
+	model_finish(&a);
+	model_finish(&b);
+	text_finish(&t);
+}
+
 static void stops_when_told(void **state)
 {
 	const struct made_file f = { 0 };
@@ -727,6 +762,7 @@ int main(void)
 		cmocka_unit_test(whole_files_refused),
 		cmocka_unit_test(parts_are_not_counted),
 		cmocka_unit_test(written_is_read_again),
+		cmocka_unit_test(only_what_is_meant_is_written),
 		cmocka_unit_test(stops_when_told),
 		cmocka_unit_test(entities_that_multiply_are_stopped),
 		cmocka_unit_test(damaged_files_are_survived),
