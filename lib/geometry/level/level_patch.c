@@ -86,7 +86,8 @@ static void link_arcs(struct tracer *t, struct patch_links *k)
 {
 	struct arc_end *e = t->ends.p;
 	int n = (int)t->ends.n;
-	qsort(e, n, sizeof *e, end_compare);
+	if (n > 0)
+		qsort(e, n, sizeof *e, end_compare);
 	for (int i = 0; i < n; i++) {
 		k->to[2 * e[i].arc + e[i].end] = LINK_LOOSE;
 		k->end[2 * e[i].arc + e[i].end] = &e[i];
