@@ -281,7 +281,7 @@ int link_main(void)
 	send_hello(l);
 	if (signals_watch(&l->run) != ST_OK || pthread_create(&reader, NULL, read_packets, l))
 		keep_error(l, ST_RESOURCE, "cannot start a thread: memory ran out");
-	else if (wait_start(l))
+	else if (pthread_detach(reader) == 0 && wait_start(l))
 		do_job(l);
 	clock_gettime(CLOCK_MONOTONIC, &end);
 	pthread_mutex_lock(&l->lock);

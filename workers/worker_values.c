@@ -100,9 +100,10 @@ static enum status set_numbers(const struct param *p, const char *value, char ma
 	struct text t = { 0 };
 	if (!read_numbers(value, mark, n, integers, x))
 		return wrong(p, value, expected, r);
-	for (int i = 0; i < n; i++) {
+	for (int i = 0; i < n; i++)
 		if (!in_range(p, x[i]))
 			return wrong(p, value, expected, r);
+	for (int i = 0; i < n; i++) {
 		if (i > 0)
 			text_add_bytes(&t, &mark, 1);
 		text_add_number(&t, x[i] == 0 ? 0 : x[i]);

@@ -86,6 +86,7 @@ static void test_parameters(void **state)
 	} rows[] = {
 		{ "--gird", "3", "no parameter 'gird'; probe has units, bytes" },
 		{ "--grid", "0x0", "two integers AxB, each from 1 to 65536" },
+		{ "--grid", "3x0", "from 1" },
 		{ "--grid", "3", "AxB" },
 		{ "--grid", "3x4x5", "AxB" },
 		{ "--grid", "99999999999x1", "AxB" },
