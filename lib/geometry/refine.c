@@ -129,7 +129,7 @@ enum status curve_part(struct curve *out, const struct curve *c, double a, doubl
 	return ST_OK;
 }
 
-enum status surface_part(struct surface *out, const struct surface *s, const double range[2][2])
+enum status surface_part(struct surface *out, const struct surface *s, const double (*range)[2])
 {
 	struct surface half;
 	enum status st = surface_change(&half, s, 0, change_part, range[0]);

@@ -15,10 +15,10 @@ enum status curve_insert(struct curve *out, const struct curve *c, const double 
 enum status surface_insert(struct surface *out, const struct surface *s, int d, const double *x,
                            int m);
 
-/* The part [a, b] (in both directions for a surface), clamped there, same parameters; [a, b]
+/* The part [a, b] (a surface: range[d] in both directions), clamped there, same parameters; it
  * becomes the domain. */
 enum status curve_part(struct curve *out, const struct curve *c, double a, double b);
-enum status surface_part(struct surface *out, const struct surface *s, const double range[2][2]);
+enum status surface_part(struct surface *out, const struct surface *s, const double (*range)[2]);
 
 /* Raise the degree by t >= 0; unclamped knots are clamped first, at the ends of their domain.
  * Source: Prautzsch, CAGD 1 (1984), 193-198. */
