@@ -154,7 +154,8 @@ INLINE vl finish_newton(const struct ray_patch *patch, const struct finish_rays 
 		vd rest = sized(f1) + sized(f2);
 		vd left = sized(da) + sized(db);
 		vl late = (vl){ 0 } - (step > 3);
-		vl sure = live & (left < 1e-8) & (rest < 1e-7);
+		/* this step is taken in full by the first derivatives: what is left is its square */
+		vl sure = live & (left < 1e-6) & (rest < 1e-7);
 		/* where the Jacobian vanishes (a pole, a double root) the step says little, or
 		 * shrinks by halves only, once the ray is met */
 		vl ends = sure | (live & (rest < 1e-13) & ((left > 1e-6) | late));

@@ -11,10 +11,10 @@
  * over the row's length. Below it the Newton iteration from the linear solution converges in two or
  * three steps, and more leaves only cost memory.
  */
-static const double bend_limit = 0.1;
+static const double bend_limit = 0.12;
 
 /* A straight net may still twist: of a hyperbolic paraboloid every row is straight. */
-static const double twist_limit = 0.1;
+static const double twist_limit = 0.12;
 
 /* A bicubic may stand for a leaf of higher degree when it is nearer than this part of its size:
  * the iteration starts there and the finish runs on the true surface. */
