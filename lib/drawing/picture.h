@@ -24,7 +24,7 @@ enum status picture_image(const char *path, int width, int height, const float *
 
 /*
  * A map: values colored, with a key: symbol, unit, ticks at round numbers, range and scale in words.
- * Values smaller than half a thousand pixels across are drawn as rectangles of pixels.
+ * A map of fewer than 512 values a side is drawn larger, each value as a rectangle of pixels.
  */
 struct picture_map {
 	int width, height;    /* of the values */
