@@ -51,7 +51,8 @@ struct curve_shape {
 };
 void curve_shape(const struct curve *c, double t, struct curve_shape *out);
 
-/* Length between a and b, to a relative accuracy (Gauss-Legendre a span, halved until it holds). */
+/* Length between a and b, to a relative accuracy (Gauss-Legendre a span, halved until it holds);
+ * NaN for want of memory. */
 double curve_length(const struct curve *c, double a, double b, double accuracy);
 
 /* End points of the domain coincide within tolerance (same unit as the points). */

@@ -10,7 +10,7 @@ double extrapolate_node(int k)
 
 double extrapolate(const double *f, int n, double *error)
 {
-	double row[EXTRAPOLATE_NODES], best = NAN;
+	double row[EXTRAPOLATE_NODES] = { 0 }, best = NAN;
 	*error = INFINITY;
 	for (int k = 0; k < n && isfinite(f[k]); k++) {
 		double above = row[0];

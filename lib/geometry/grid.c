@@ -187,24 +187,30 @@ enum status grid_create(struct grid **out, const struct surface *s, const double
 	return ST_OK;
 }
 
-/* One point the slow way, poles and their surroundings. */
+/* The point, normal and values on a border that is one point; false where there is none such. The
+ * normal curvatures along u and v turn along the border and are not known beforehand. */
+static bool shape_known(const struct grid *g, const double at[2], unsigned what,
+                        struct surface_shape *out)
+{
+	if (what & (GRID_BIT(QUANTITY_NORMAL_U) | GRID_BIT(QUANTITY_NORMAL_V)))
+		return false;
+	for (int d = 0; d < 2; d++)
+		for (int end = 0; end < 2; end++)
+			if (g->shrunk[d][end] && at[d] == g->s->domain[d][end]) {
+				out->point = surface_point(g->s, at[0], at[1]);
+				shape_from_pole(out, &g->pole[d][end]);
+				return true;
+			}
+	return false;
+}
+
+/* One point the slow way, for poles and their surroundings. */
 static void point_alone(const struct grid *g, double u, double v, unsigned what,
                         double value[N_GRID_CHANNELS])
 {
-	const unsigned turning = GRID_BIT(QUANTITY_NORMAL_U) | GRID_BIT(QUANTITY_NORMAL_V);
-	const struct surface *s = g->s;
-	const double at[2] = { u, v };
 	struct surface_shape shape;
-	for (int d = 0; d < 2; d++)
-		for (int end = 0; end < 2; end++) {
-			if (!g->shrunk[d][end] || at[d] != s->domain[d][end] || what & turning)
-				continue;
-			shape.point = surface_point(s, u, v);
-			shape_from_pole(&shape, &g->pole[d][end]);
-			goto found;
-		}
-	surface_shape(s, u, v, &shape);
-found:
+	if (!shape_known(g, (const double[2]){ u, v }, what, &shape))
+		surface_shape(g->s, u, v, &shape);
 	memcpy(value, shape.value, sizeof shape.value);
 	value[GRID_POINT_X] = shape.point.x;
 	value[GRID_POINT_Y] = shape.point.y;

@@ -48,7 +48,8 @@ bool surface_degenerate(const struct surface *s, int d, int end, double toleranc
 /* Largest extent of the control net's box: the size that relative tolerances refer to. */
 double surface_size(const struct surface *s);
 
-/* Area over the domain to a relative accuracy; *error is the last step's change. */
+/* Area over the domain to a relative accuracy; *error is the last step's change. NaN for want of
+ * memory. */
 double surface_area(const struct surface *s, double accuracy, double *error);
 
 #endif
