@@ -271,6 +271,7 @@ static void texts_and_their_faults(void **state)
 		  "found '2000000000', expected number of control points" },
 		{ "batten base 1\ntype surface order 2 2 ncontpts 40000 40000 uknots",
 		  "expected number of control points" },
+		{ "batten base 1\ntype surface order 2 2 ncontpts x 2", "found 'x'" },
 		{ "batten base 1\ntype curve order 2 ncontpts 2 knots 0 0 nan 1", "found 'nan'" },
 		{ "batten base 1\ntype curve order 2 ncontpts 2 knots 0 0 1e999 1",
 		  "found '1e999'" },
