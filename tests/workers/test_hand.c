@@ -1,6 +1,8 @@
 /* test_hand.c - workers run by hand: names, options, failures, resumption, what is up to date. */
 #include "drive.h"
 
+#include <fcntl.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -276,6 +278,33 @@ static void test_full_disk(void **state)
 	assert_int_equal(count_files(), 4);
 }
 
+/* Ctrl-C: it stops at the next unit, says what is kept, and goes on from there. */
+static void test_interrupt(void **state)
+{
+	(void)state;
+	struct peer p;
+	char line[8] = "";
+	assert_int_equal(mkfifo("units", 0600), 0);
+	int fd = open("units", O_RDWR);
+	assert_true(fd >= 0);
+	peer_start(&p, probe, "PROBE_LOG=units", "PROBE_HANG=3", "one.base", "--threads", "1",
+	           NULL);
+	while (strcmp(line, "2\n") != 0) {
+		ssize_t n = read(fd, line, 2);
+		assert_int_equal(n, 2);
+	}
+	kill(p.pid, SIGINT);
+	assert_int_equal(peer_end(&p), 130);
+	close(fd);
+	size_t n;
+	char *said = slurp("peer.log", &n);
+	expect_word(said, "cancelled; 3 of 8 units are kept in 'one.probe.base.part'");
+	assert_null(strchr(said, '\r')); /* no terminal, no bar */
+	free(said);
+	expect(run_hand(probe, "PROBE_LOG=log", "one.base", NULL), 0, "", "3 of 8 units are there");
+	assert_int_equal(count_lines("log"), 5);
+}
+
 /* The sanitizer's own shadow would not fit a limit; it has one of its own. */
 #if defined(__SANITIZE_ADDRESS__)
 #define ADDRESS_SPACE_IS_TAKEN 1
@@ -447,6 +476,7 @@ int main(int argc, char **argv)
 		cmocka_unit_test_setup_teardown(test_failures, enter, leave),
 		cmocka_unit_test_setup_teardown(test_going_on, enter, leave),
 		cmocka_unit_test_setup_teardown(test_full_disk, enter, leave),
+		cmocka_unit_test_setup_teardown(test_interrupt, enter, leave),
 		cmocka_unit_test_setup_teardown(test_memory, enter, leave),
 		cmocka_unit_test_setup_teardown(test_description, enter, leave),
 		cmocka_unit_test_setup_teardown(test_job_file, enter, leave),
