@@ -234,7 +234,6 @@ static enum status read_all(struct iges *g)
 	if (st == ST_OK)
 		st = iges_read_directory(g);
 	g->budget = (int64_t)BUDGET_A_LINE * g->n_p + BUDGET_MORE;
-	g->at = -1;
 	if (st == ST_OK)
 		st = iges_find_uses(g);
 	g->budget = (int64_t)BUDGET_A_LINE * g->n_p + BUDGET_MORE;
@@ -279,5 +278,6 @@ enum status iges_parse(struct model *m, const char *bytes, size_t n, const char 
 	free(g.first_lines);
 	free(g.faces);
 	free(g.bounds);
+	free(g.edges.curves);
 	return st;
 }

@@ -85,7 +85,7 @@ struct iges_entry *iges_entry(struct iges *g, int de)
 
 void iges_warn(struct iges *g, enum iges_warning w, int de)
 {
-	if (g->at && de != g->at)
+	if (g->quiet || (g->at && de != g->at))
 		return; /* a part is looked at again for those made of it */
 	if (g->warned[w].count++ == 0)
 		g->warned[w].first = de;

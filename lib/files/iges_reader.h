@@ -36,7 +36,7 @@ struct iges_entry {
 	bool blanked;
 	bool used;      /* another entity is made of it */
 	int trims;      /* loops of all faces on it */
-	int first_face; /* in faces[], -1: none */
+	int first_face; /* in faces[], 0: none */
 	int first_edge; /* in bounds[]: curves that bound the faces on it; -1: none */
 };
 
@@ -60,6 +60,12 @@ enum iges_warning {
 	WARN_OFFSET,
 	WARN_SEQUENCE,
 	N_IGES_WARNINGS,
+};
+
+/* An edge list (504): the curve of each edge. */
+struct iges_edges {
+	int list, n; /* its directory entry, 0: none loaded */
+	int *curves; /* owned */
 };
 
 struct iges {
@@ -87,7 +93,9 @@ struct iges {
 	struct {
 		int count, first;
 	} warned[N_IGES_WARNINGS];
-	int at;                    /* the entity at hand, which warnings are about; -1: none */
+	struct iges_edges edges;   /* the list last looked at */
+	bool quiet;                /* a first look: warnings are said at the second */
+	int at;                    /* the entity at hand, which warnings are about; 0: none */
 	char reason[1024];         /* why the entity at hand cannot be read */
 	struct report_store store; /* where kernel functions leave their sentence */
 	struct model *m;

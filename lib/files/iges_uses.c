@@ -169,20 +169,34 @@ static enum status bound_by_142(struct iges *g, int surface, int de)
 	return add_bound(g, surface, iges_int(&c));
 }
 
-/* The curve of edge `index` (from 1) of the list 504. */
-static enum status bound_by_edge(struct iges *g, int surface, int list, int index)
+/* The curves of an edge list 504 at hand: loops look them up by place. */
+static enum status load_edges(struct iges *g, int list)
 {
 	struct iges_cursor c;
 	enum status st = iges_open(g, list, 504, &c);
 	if (st != ST_OK)
 		return st;
 	int n = iges_count(&c, "count", 0, iges_left(&c));
-	if (index < 1 || index > n)
-		return ST_OK;
-	for (int i = 1; i < index && c.st == ST_OK; i++)
-		for (int k = 0; k < 5; k++)
-			iges_real(&c);
-	return add_bound(g, surface, iges_int(&c));
+	int *curves = calloc(n ? (size_t)n : 1, sizeof *curves);
+	if (!curves)
+		return ST_RESOURCE;
+	for (int i = 0; i < n && c.st == ST_OK; i++) {
+		curves[i] = iges_int(&c);
+		for (int k = 0; k < 4; k++)
+			iges_int(&c);
+	}
+	free(g->edges.curves);
+	g->edges = (struct iges_edges){ list, n, curves };
+	return c.st;
+}
+
+/* The curve of edge `index` (from 1) of the list 504. */
+static enum status bound_by_edge(struct iges *g, int surface, int list, int index)
+{
+	enum status st = g->edges.list == list ? ST_OK : load_edges(g, list);
+	if (st != ST_OK || index < 1 || index > g->edges.n)
+		return st;
+	return add_bound(g, surface, g->edges.curves[index - 1]);
 }
 
 static enum status bound_by_508(struct iges *g, int surface, int de)
@@ -284,6 +298,7 @@ static const struct {
 static enum status find_of(struct iges *g, int de, size_t row)
 {
 	struct iges_cursor c;
+	g->at = de;
 	enum status st = iges_open(g, de, 0, &c);
 	if (st == ST_OK && users[row].find)
 		st = users[row].find(&c);
@@ -298,6 +313,7 @@ static enum status find_of(struct iges *g, int de, size_t row)
 
 enum status iges_find_uses(struct iges *g)
 {
+	g->quiet = true;
 	for (int i = 0; i < g->n_entries; i++) {
 		size_t row = 0;
 		while (row < sizeof users / sizeof users[0] &&
@@ -309,5 +325,6 @@ enum status iges_find_uses(struct iges *g)
 		if (st != ST_OK)
 			return st;
 	}
+	g->quiet = false;
 	return ST_OK;
 }
