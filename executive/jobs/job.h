@@ -61,6 +61,7 @@ struct queue {
 	struct job **changed; /* owned array of borrowed */
 	int n_changed, changed_cap;
 	const struct job *blocked; /* first in line that finds no threads or memory */
+	int dependents;            /* jobs that wait, or waited, for others */
 	bool leaving, unsettled;
 	char *fault; /* owned; why the ledger takes nothing */
 	double retry_at;

@@ -3,54 +3,20 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "child.h"
 #include "job_file.h"
 #include "path.h"
 #include "roster.h"
 #include "process.h"
 #include "text.h"
 
-/* bytes of packets taken from one worker in one turn of the loop; milliseconds between looks at the
- * logs; bytes of a log */
-enum { READ_AT_ONCE = 65536, LOG_LOOK_MS = 500, LOG_MAX = 16 << 20, MIB = 1 << 20 };
-
 /* What a worker may have beyond the memory of its job: its program, stacks, the allocator. */
-enum { MEMORY_SPARE_MIB = 256, MEMORY_THREAD_MIB = 16 };
-
-struct worker {
-	struct local *local; /* borrowed */
-	struct worker *next;
-	int64_t id;
-	pid_t pid; /* 0: has been waited for */
-	int in, log;
-	int out, pidfd; /* -1: closed */
-	uv_poll_t out_poll, pid_poll;
-	int n_handles; /* still open */
-	bool forgotten;
-	struct message_reader reader;
-	char *job_file; /* owned */
-};
-
-struct local {
-	uv_loop_t *loop;
-	const struct project *project;
-	struct launcher launcher;
-	struct launcher_sink sink;
-	char *stub, *host;
-	char *name, *path; /* the worker found last, for the next job of the same */
-	int niceness;
-	uv_signal_t child;
-	uv_timer_t look;
-	struct worker *workers; /* those not forgotten */
-};
+enum { MIB = 1 << 20, MEMORY_SPARE_MIB = 256, MEMORY_THREAD_MIB = 16 };
 
 static struct worker *worker_find(const struct local *l, int64_t id)
 {
@@ -58,136 +24,6 @@ static struct worker *worker_find(const struct local *l, int64_t id)
 	while (w && w->id != id)
 		w = w->next;
 	return w;
-}
-
-static void worker_free(struct worker *w)
-{
-	if (!w->forgotten || w->n_handles)
-		return;
-	message_reader_finish(&w->reader);
-	free(w->job_file);
-	free(w);
-}
-
-static void on_closed(uv_handle_t *h)
-{
-	struct worker *w = h->data;
-	w->n_handles--;
-	worker_free(w);
-}
-
-static void poll_close(uv_poll_t *poll, int *fd)
-{
-	if (*fd < 0)
-		return;
-	uv_poll_stop(poll);
-	close(*fd);
-	*fd = -1;
-	uv_close((uv_handle_t *)poll, on_closed);
-}
-
-/* The process is gone but not waited for, so its number is still ours: end its group first. */
-static void on_exit_seen(uv_poll_t *poll, int status, int events)
-{
-	struct worker *w = poll->data;
-	struct local *l = w->local;
-	siginfo_t si = { 0 };
-	struct rusage usage;
-	int code = 0;
-	(void)status;
-	(void)events;
-	if (waitid(P_PID, (id_t)w->pid, &si, WEXITED | WNOHANG | WNOWAIT) || !si.si_pid)
-		return;
-	kill(-w->pid, SIGKILL);
-	while (wait4(w->pid, &code, 0, &usage) < 0 && errno == EINTR)
-		;
-	w->pid = 0;
-	poll_close(&w->pid_poll, &w->pidfd);
-	struct launcher_exit e = {
-		.status = WIFEXITED(code) ? WEXITSTATUS(code) : 0,
-		.signal = WIFSIGNALED(code) ? WTERMSIG(code) : 0,
-		.cpu_s = (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-		         (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec) * 1e-6,
-		.peak_kib = usage.ru_maxrss,
-	};
-	l->sink.exited(l->sink.data, w->id, &e);
-}
-
-static void worker_broken(struct worker *w, const char *reason)
-{
-	struct launcher_sink *sink = &w->local->sink;
-	poll_close(&w->out_poll, &w->out);
-	sink->broken(sink->data, w->id, reason);
-	sink->drained(sink->data, w->id);
-}
-
-/* So much a turn, so that no worker keeps the loop from the others. */
-static void on_readable(uv_poll_t *poll, int status, int events)
-{
-	struct worker *w = poll->data;
-	struct launcher_sink *sink = &w->local->sink;
-	struct message m;
-	size_t room;
-	int next = 0;
-	(void)status;
-	(void)events;
-	char *to = message_reader_room(&w->reader, READ_AT_ONCE, &room);
-	if (!to) {
-		worker_broken(w, "out of memory");
-		return;
-	}
-	ssize_t n = read(w->out, to, room < READ_AT_ONCE ? room : READ_AT_ONCE);
-	if (n < 0 && (errno == EAGAIN || errno == EINTR))
-		return;
-	if (n > 0)
-		message_reader_filled(&w->reader, (size_t)n);
-	while (w->out >= 0 && (next = message_reader_next(&w->reader, &m)) > 0) {
-		sink->packet(sink->data, w->id, &m);
-		message_finish(&m);
-	}
-	if (next < 0) {
-		worker_broken(w, w->reader.reason);
-	} else if (n <= 0 && w->out >= 0) {
-		if (message_reader_partial(&w->reader)) {
-			worker_broken(w, "the pipe ended in the middle of a packet");
-			return;
-		}
-		poll_close(&w->out_poll, &w->out);
-		sink->drained(sink->data, w->id);
-	}
-}
-
-/* libuv does not tell of stops. */
-static void on_child(uv_signal_t *signal, int number)
-{
-	struct local *l = signal->data;
-	(void)number;
-	for (struct worker *w = l->workers, *next; w; w = next) {
-		siginfo_t si = { 0 };
-		next = w->next;
-		while (w->pid &&
-		       !waitid(P_PID, (id_t)w->pid, &si, WSTOPPED | WCONTINUED | WNOHANG) &&
-		       si.si_pid) {
-			l->sink.stopped(l->sink.data, w->id, si.si_code == CLD_STOPPED);
-			si = (siginfo_t){ 0 };
-		}
-	}
-}
-
-/* A worker writes its log itself; one that writes too much loses what it wrote. */
-static void on_look(uv_timer_t *timer)
-{
-	static const char note[] = "batten: the log grew beyond 16 MiB, what stood here was cut\n";
-	struct local *l = timer->data;
-	struct stat s;
-	for (struct worker *w = l->workers; w; w = w->next) {
-		if (fstat(w->log, &s) || s.st_size <= LOG_MAX || ftruncate(w->log, 0))
-			continue;
-		if (write(w->log, note, sizeof note - 1) < 0)
-			continue; /* a full disk: the worker's own lines are lost as well */
-	}
-	if (!l->workers)
-		uv_timer_stop(timer);
 }
 
 /* The path of a worker; NULL: there is none, and the report knows. */
@@ -254,21 +90,6 @@ static enum status worker_start(struct worker *w, struct Stats *s, const struct 
 	return st;
 }
 
-static void worker_listen(struct worker *w)
-{
-	struct local *l = w->local;
-	uv_poll_init(l->loop, &w->out_poll, w->out);
-	uv_poll_init(l->loop, &w->pid_poll, w->pidfd);
-	w->out_poll.data = w->pid_poll.data = w;
-	w->n_handles = 2;
-	uv_poll_start(&w->out_poll, UV_READABLE, on_readable);
-	uv_poll_start(&w->pid_poll, UV_READABLE, on_exit_seen);
-	w->next = l->workers;
-	l->workers = w;
-	if (!uv_is_active((uv_handle_t *)&l->look))
-		uv_timer_start(&l->look, on_look, LOG_LOOK_MS, LOG_LOOK_MS);
-}
-
 static enum status local_start(void *data, struct Stats *s, const struct report *r)
 {
 	struct local *l = data;
@@ -295,7 +116,7 @@ static enum status local_start(void *data, struct Stats *s, const struct report 
 		goto fail;
 	}
 	message_reader_init(&w->reader, FROM_WORKER);
-	worker_listen(w);
+	child_listen(w);
 	free(s->host);
 	s->host = host;
 	s->pid = w->pid;
@@ -363,15 +184,7 @@ static void local_forget(void *data, int64_t id)
 	if (!w)
 		return;
 	*at = w->next;
-	poll_close(&w->out_poll, &w->out);
-	if (w->pid) {
-		kill(-w->pid, SIGKILL);
-		poll_close(&w->pid_poll, &w->pidfd);
-	}
-	close(w->in);
-	close(w->log);
-	w->forgotten = true;
-	worker_free(w);
+	child_forget(w);
 }
 
 /* Beside the program, in the build tree it lies in, or installed. */
@@ -424,7 +237,7 @@ enum status local_create(struct local **out, uv_loop_t *loop, const struct proje
 	uv_signal_init(loop, &l->child);
 	uv_timer_init(loop, &l->look);
 	l->child.data = l->look.data = l;
-	uv_signal_start(&l->child, on_child, SIGCHLD);
+	uv_signal_start(&l->child, child_on_signal, SIGCHLD);
 	*out = l;
 	return ST_OK;
 }

@@ -29,13 +29,16 @@ static bool bucket_take(struct bucket *b, double now, double at_once, double a_s
 	return true;
 }
 
+static double stopped_s(const struct job *job, double now)
+{
+	bool stopped = job->stats.state == JOB_SUSPENDED;
+	return job->stopped_s + (stopped ? now - job->stopped_at : 0);
+}
+
 double job_running_s(const struct job *job)
 {
 	double now = queue_now(job->q);
-	double stopped = job->stopped_s;
-	if (job->stats.state == JOB_SUSPENDED)
-		stopped += now - job->stopped_at;
-	return now - job->began - stopped;
+	return now - job->began - stopped_s(job, now);
 }
 
 void job_times(struct job *job)
@@ -43,9 +46,10 @@ void job_times(struct job *job)
 	struct Stats *s = &job->stats;
 	if (!job->process)
 		return;
-	double running = job_running_s(job);
-	s->wall_s = queue_now(job->q) - job->began;
-	s->suspended_s = s->wall_s - running;
+	double now = queue_now(job->q);
+	s->wall_s = now - job->began;
+	s->suspended_s = stopped_s(job, now);
+	double running = s->wall_s - s->suspended_s;
 	double rate = (double)(s->done - job->pace_done) / (running - job->pace_at);
 	s->eta_s = rate > 0 && isfinite(rate) && s->total >= s->done
 	                   ? (double)(s->total - s->done) / rate

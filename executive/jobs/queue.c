@@ -146,6 +146,7 @@ static void queue_insert(struct queue *q, struct job *job)
 {
 	q->jobs[q->n++] = job;
 	q->count[job->stats.state]++;
+	q->dependents += job->stats.n_after > 0;
 	if (job->stats.id > q->last)
 		q->last = job->stats.id;
 }
@@ -190,8 +191,10 @@ enum status queue_submit(struct queue *q, const struct Stats *s, int n, int64_t 
 	if (st == ST_OK && n)
 		st = q->ports.ledger->write(q->ports.ledger->data, changes, (size_t)n, true, r);
 	if (st != ST_OK) {
-		q->count[JOB_QUEUED] -= q->n - before;
-		q->n = before;
+		while (q->n > before) {
+			q->count[JOB_QUEUED]--;
+			q->dependents -= q->jobs[--q->n]->stats.n_after > 0;
+		}
 		q->last = last;
 		for (int i = 0; i < made; i++)
 			job_destroy(fresh[i]);
@@ -320,6 +323,7 @@ enum status queue_forget(struct queue *q, const int64_t *ids, int n, const struc
 	}
 	for (int i = 0; i < n && st == ST_OK; i++) {
 		q->count[gone[i]->stats.state]--;
+		q->dependents -= gone[i]->stats.n_after > 0;
 		job_destroy(gone[i]);
 	}
 	free(gone);

@@ -73,7 +73,7 @@ void job_enter(struct job *job, enum job_state state)
 		line_add(job);
 	if (job_state_table[state].over) {
 		job->stats.ended = q->ports.clock->date(q->ports.clock->data);
-		q->unsettled = true;
+		q->unsettled |= q->dependents > 0;
 	}
 	job_changed(job, true);
 }
