@@ -1,0 +1,238 @@
+/* test_isophotes.c - the isophotes worker against circles on a sphere: figures, file, drawing. */
+#include "drive.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base.h"
+#include "construct.h"
+#include "json.h"
+
+static const double radius = 2;
+
+static char *isophotes;
+
+static void write_model(const char *path, struct surface *s)
+{
+	struct model m;
+	struct entity e = { .kind = ENTITY_SURFACE, .surface = -1, .geometry = *s };
+	model_init(&m);
+	m.unit = strdup("mm");
+	assert_int_equal(model_add(&m, &e), ST_OK);
+	model_number(&m);
+	assert_int_equal(base_write(&m, path, NULL), ST_OK);
+	model_finish(&m);
+}
+
+static int enter(void **state)
+{
+	static struct place place;
+	*state = &place;
+	place_enter(&place);
+	struct surface s;
+	assert_int_equal(make_sphere(&s, vec3(0, 0, 0), radius), ST_OK);
+	write_model("sphere.base", &s);
+	assert_int_equal(make_torus(&s, vec3(1, 2, 3), 20, 5), ST_OK);
+	write_model("torus.base", &s);
+	const struct vec3 corner[4] = { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 3, 0 }, { 4, 3, 0 } };
+	assert_int_equal(make_bilinear(&s, corner), ST_OK);
+	write_model("flat.base", &s);
+	const struct vec3 point[4] = { { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } };
+	assert_int_equal(make_bilinear(&s, point), ST_OK);
+	write_model("point.base", &s);
+	return 0;
+}
+
+static int leave(void **state)
+{
+	place_leave(*state);
+	return 0;
+}
+
+#define RUN(...)                                                                                   \
+	do {                                                                                       \
+		struct ran r = run_hand(isophotes, __VA_ARGS__, NULL);                             \
+		if (r.exit_status)                                                                 \
+			fail_msg("exit status %d: %s", r.exit_status, r.err);                      \
+		ran_finish(&r);                                                                    \
+	} while (0)
+
+static void near(double a, double b, double tolerance)
+{
+	if (!(fabs(a - b) <= tolerance))
+		fail_msg("%.17g is not %.17g within %g", a, b, tolerance);
+}
+
+static void curves_read(struct model *m, const char *path)
+{
+	assert_int_equal(model_read(m, path, NULL, NULL), ST_OK);
+}
+
+static json_t *figures_of(const struct model *m)
+{
+	json_t *figures;
+	const char *text = model_get_attribute(m, "figures");
+	assert_non_null(text);
+	assert_int_equal(json_parse_object(text, strlen(text), "figures", &figures, NULL), ST_OK);
+	return figures;
+}
+
+static double number_of(const struct entity *e, const char *name)
+{
+	const char *text = entity_get_attribute(e, name);
+	assert_non_null(text);
+	return strtod(text, NULL);
+}
+
+/* One angle: its circle, as curve on surface and in space. */
+static void test_circle(void **state)
+{
+	(void)state;
+	RUN("sphere.base", "--angle", "60", "--light", "0,0,3", "--tolerance", "1e-6");
+	struct model m;
+	curves_read(&m, "sphere.isophote");
+	json_t *f = figures_of(&m);
+	assert_int_equal(json_object_size(f), 5);
+	assert_int_equal(json_int(f, "branches", -1), 1);
+	assert_int_equal(json_int(f, "closed", -1), 1);
+	assert_int_equal(json_int(f, "undecided", -1), 0);
+	near(json_number(f, "length", NAN), 2 * M_PI * radius * sin(M_PI / 3), 1e-5);
+	assert_true(json_number(f, "max_error", NAN) <= 1e-6);
+	json_decref(f);
+
+	assert_int_equal(m.n, 2);
+	assert_string_equal(m.unit, "mm");
+	assert_string_equal(model_get_attribute(&m, "param.angle"), "60");
+	assert_int_equal(m.entities[0].kind, ENTITY_SURFACE);
+	const struct entity *e = &m.entities[1];
+	assert_int_equal(e->kind, ENTITY_CURVE_ON_SURFACE);
+	assert_int_equal(e->surface, 0);
+	near(number_of(e, "angle"), 60, 0);
+	assert_string_equal(entity_get_attribute(e, "closed"), "yes");
+	assert_true(number_of(e, "max_error") <= 1e-6);
+	assert_int_equal(e->curve.order, 4);
+	assert_int_equal(e->space.order, 4);
+	for (int k = 0; k <= 1000; k++) {
+		double t = e->space.domain[1] * k / 1000;
+		struct vec3 p = curve_point(&e->space, t), uv = curve_point(&e->curve, t);
+		struct vec3 q = surface_point(&m.entities[0].geometry, uv.x, uv.y);
+		near(p.z, radius / 2, 1e-6);
+		near(q.z, radius / 2, 1e-6);
+		near(hypot(p.x, p.y), radius * sin(M_PI / 3), 1e-6);
+	}
+	model_finish(&m);
+}
+
+/* Several angles: a row each, sums over all. */
+static void test_levels(void **state)
+{
+	(void)state;
+	RUN("torus.base", "--from", "30", "--to", "150", "--count", "5", "--svg");
+	struct model m;
+	curves_read(&m, "torus.isophote");
+	json_t *f = figures_of(&m), *levels = json_object_get(f, "levels"), *row;
+	double length = 0;
+	size_t i;
+	assert_int_equal(json_object_size(f), 6);
+	assert_int_equal(json_array_size(levels), 5);
+	json_array_foreach(levels, i, row)
+	{
+		assert_int_equal(json_object_size(row), 6);
+		near(json_number(row, "angle", NAN), 30 + 30 * (double)i, 1e-12);
+		assert_int_equal(json_int(row, "branches", -1), 2);
+		assert_int_equal(json_int(row, "closed", -1), 2);
+		/* two parallels whose radii have the mean 20 */
+		near(json_number(row, "length", NAN), 80 * M_PI, 1e-3);
+		length += json_number(row, "length", NAN);
+	}
+	assert_int_equal(json_int(f, "branches", -1), 10);
+	assert_int_equal(json_int(f, "closed", -1), 10);
+	near(json_number(f, "length", NAN), length, 1e-9);
+	assert_int_equal(m.n, 11);
+	json_decref(f);
+	model_finish(&m);
+	size_t n;
+	char *svg = slurp("torus.isophote.svg", &n);
+	assert_non_null(strstr(svg, "<svg"));
+	free(svg);
+	RUN("torus.base", "-o", "all");
+	curves_read(&m, "all.isophote");
+	f = figures_of(&m);
+	assert_int_equal(json_array_size(json_object_get(f, "levels")), 17);
+	assert_int_equal(json_int(f, "branches", -1), 34);
+	json_decref(f);
+	model_finish(&m);
+}
+
+/* What is undecided is in the file, as boxes in u, v. */
+static void test_undecided(void **state)
+{
+	(void)state;
+	RUN("flat.base", "--angle", "0");
+	struct model m;
+	curves_read(&m, "flat.isophote");
+	json_t *f = figures_of(&m);
+	assert_int_equal(json_int(f, "branches", -1), 0);
+	assert_int_equal(json_int(f, "undecided", -1), 1);
+	assert_int_equal(m.n, 2);
+	const struct entity *e = &m.entities[1];
+	assert_int_equal(e->kind, ENTITY_POINTS);
+	assert_int_equal(e->points.n, 2);
+	assert_int_equal(e->points.dimension, 2);
+	const double *v = e->points.values;
+	assert_true(v[0] == 0 && v[1] == 0 && v[2] == 1 && v[3] == 1);
+	json_decref(f);
+	model_finish(&m);
+}
+
+static void test_same_bytes(void **state)
+{
+	(void)state;
+	RUN("torus.base", "--light", "1,2,3", "--svg", "--threads", "1", "-o", "one");
+	RUN("torus.base", "--light", "1,2,3", "--svg", "--threads", "4", "-o", "four");
+	assert_same_file("one.isophote", "four.isophote");
+	assert_same_file("one.isophote.svg", "four.isophote.svg");
+}
+
+static void test_wrong(void **state)
+{
+	static const struct {
+		const char *input, *arguments[4];
+		int exit_status;
+		const char *says;
+	} wrong[] = {
+		{ "sphere.base", { "--angle", "181" }, 2, "angle" },
+		{ "sphere.base", { "--angle", "30", "--from", "10" }, 2, "twice" },
+		{ "sphere.base", { "--from", "50", "--to", "40" }, 2, "above" },
+		{ "sphere.base", { "--count", "0" }, 2, "count" },
+		{ "sphere.base", { "--tolerance", "0" }, 2, "tolerance" },
+		{ "sphere.base", { "--light", "0,0,0" }, 2, "light" },
+		{ "point.base", { "--angle", "30" }, 1, "point" },
+	};
+	(void)state;
+	for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+		const char *const *a = wrong[i].arguments;
+		struct ran r = run_hand(isophotes, wrong[i].input, "-o", "wrong", a[0], a[1], a[2],
+		                        a[3], NULL);
+		if (r.exit_status != wrong[i].exit_status || !strstr(r.err, wrong[i].says))
+			fail_msg("case %zu: exit status %d: %s", i, r.exit_status, r.err);
+		assert_false(there("wrong.isophote"));
+		ran_finish(&r);
+	}
+}
+
+int main(int argc, char **argv)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_circle),    cmocka_unit_test(test_levels),
+		cmocka_unit_test(test_undecided), cmocka_unit_test(test_same_bytes),
+		cmocka_unit_test(test_wrong),
+	};
+	if (argc < 2)
+		return 2;
+	isophotes = realpath(argv[1], NULL); /* tests work in another folder */
+	int rc = cmocka_run_group_tests(tests, enter, leave);
+	free(isophotes);
+	return rc;
+}
