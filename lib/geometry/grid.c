@@ -1,6 +1,7 @@
 /* grid.c - values on a regular grid of parameters, in bulk. */
 #include "grid.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,12 +23,12 @@ struct grid {
 	struct run *runs; /* owned */
 	int n_runs;
 	size_t lanes;
-	double *basis_u;   /* owned: [derivative][function][lane] */
-	double *basis_v;   /* owned: [row][derivative][function] */
-	int *span_v;       /* owned: of each row */
-	int *floor_row;    /* owned: of each row, which row of `floor` */
-	double *floor;     /* owned: [different span of v][run] */
-	bool shrunk[2][2]; /* border d, end is one point: its limits are known */
+	double *basis_u;       /* owned: [derivative][function][lane] */
+	double *basis_v;       /* owned: [row][derivative][function] */
+	int *span_v;           /* owned: of each row */
+	int *floor_row;        /* owned: of each row, which row of `floor` */
+	_Atomic double *floor; /* owned: [different span of v][run]; below 0: not looked at yet */
+	bool shrunk[2][2];     /* border d, end is one point: its limits are known */
 	struct pole pole[2][2];
 };
 
@@ -131,18 +132,27 @@ static enum status rows_prepare(struct grid *g)
 	g->floor = malloc(sizeof *g->floor * floors * g->n_runs);
 	if (!g->floor)
 		return ST_RESOURCE;
-	for (int j = 0; j < g->nv; j++) {
-		if (j > 0 && g->floor_row[j] == g->floor_row[j - 1])
-			continue;
-		for (int k = 0; k < g->n_runs; k++) {
-			const int span[2] = { g->runs[k].span, g->span_v[j] };
-			const struct pole_scale scale = pole_scale_of(s, span);
-			const double low = pole_near * scale.area;
-			g->floor[(size_t)g->floor_row[j] * g->n_runs + k] =
-			        scale.none ? INFINITY : low * low;
-		}
-	}
+	for (size_t i = 0; i < (size_t)floors * g->n_runs; i++)
+		atomic_init(&g->floor[i], -1);
 	return ST_OK;
+}
+
+/*
+ * |Su x Sv|^2 up to which points of row j, run k go the slow way. Found when first asked for, so that
+ * the first rows need not wait for the whole surface; threads that meet here find the same.
+ */
+static double floor_of(const struct grid *g, int j, int k)
+{
+	_Atomic double *place = &g->floor[(size_t)g->floor_row[j] * g->n_runs + k];
+	double floor = atomic_load_explicit(place, memory_order_relaxed);
+	if (floor >= 0)
+		return floor;
+	const int span[2] = { g->runs[k].span, g->span_v[j] };
+	const struct pole_scale scale = pole_scale_of(g->s, span);
+	const double low = pole_near * scale.area;
+	floor = scale.none ? INFINITY : low * low;
+	atomic_store_explicit(place, floor, memory_order_relaxed);
+	return floor;
 }
 
 /* A border that is one point has one normal and one pair of curvatures: found once. */
@@ -221,7 +231,7 @@ static void point_alone(const struct grid *g, double u, double v, unsigned what,
 }
 
 /* Prepare the strip of row j in run k. */
-static void strip_set(const struct grid *g, int j, int k, struct grid_strip *strip)
+static void strip_set(const struct grid *g, int j, int k, unsigned what, struct grid_strip *strip)
 {
 	const struct surface *s = g->s;
 	const int ku = s->order[0], kv = s->order[1];
@@ -244,7 +254,7 @@ static void strip_set(const struct grid *g, int j, int k, struct grid_strip *str
 	strip->stride = g->lanes;
 	for (int d = 0; d < 3; d++)
 		strip->basis[d] = g->basis_u + (size_t)d * ku * g->lanes;
-	strip->floor = g->floor[(size_t)g->floor_row[j] * g->n_runs + k];
+	strip->floor = what & grid_first ? floor_of(g, j, k) : 0;
 	g->kernel->net(strip, p, (size_t)4 * s->n[1], kv, basis);
 }
 
@@ -268,7 +278,7 @@ static void strip_rows(const struct grid *g, int j, int k, int a, int b, unsigne
                        double *const out[N_GRID_CHANNELS])
 {
 	const struct run *run = &g->runs[k];
-	strip_set(g, j, k, strip);
+	strip_set(g, j, k, what, strip);
 	while (a < b) {
 		/* Whole groups of lanes, of which the first `skip` were not asked for. */
 		const size_t skip = (size_t)(a - run->first) % GRID_PAD;
