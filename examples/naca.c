@@ -1,7 +1,7 @@
 /* naca.c - a swept and tapered wing, NACA 2412 at the root to 2410 at the tip, the tip rounded.
  *
  * x aft, y along the span to port, z up; half span 6 m, chords 2 and 0.9 m. The sections are
- * smooth in the angle a about the circle over the chord, x = (1 + cos a) / 2, nose included.
+ * smooth in t where x = t^2, from 1 at the trailing edge over the upper side to -1, nose included.
  * Source: Jacobs, Ward and Pinkerton, NACA Report 460 (1933); the last coefficient of the
  * thickness closed to 0.1036 for a sharp trailing edge.
  */
@@ -19,18 +19,17 @@ static double lerp(double a, double b, double t)
 	return a + t * (b - a);
 }
 
-/* Point of the section of unit chord: from the trailing edge (a = 0) over the upper side to the
- * nose (pi) and back along the lower. */
-static void section_point(double a, double thickness, double *x, double *z)
+/* Point of the section of unit chord at t. */
+static void section_point(double t, double thickness, double *x, double *z)
 {
 	const double m = 0.02, p = 0.4;
-	double c = (1 + cos(a)) / 2, root = fabs(cos(a / 2));
+	double c = t * t, root = fabs(t);
 	double half = 5 * thickness *
 	              (0.2969 * root + c * (-0.1260 + c * (-0.3516 + c * (0.2843 - 0.1036 * c))));
 	double line = c < p ? m / (p * p) * c * (2 * p - c)
 	                    : m / ((1 - p) * (1 - p)) * (1 - 2 * p + c * (2 * p - c));
 	double slope = (c < p ? 2 * m / (p * p) : 2 * m / ((1 - p) * (1 - p))) * (p - c);
-	double turn = atan(slope), side = a < M_PI ? 1 : -1;
+	double turn = atan(slope), side = t > 0 ? 1 : -1;
 	*x = c - side * half * sin(turn);
 	*z = line + side * half * cos(turn);
 }
@@ -42,7 +41,7 @@ static enum status make_section(struct curve *out, double s, const struct report
 	double chord = lerp(2, 0.9, s), twist = lerp(0, -3, s) * M_PI / 180;
 	for (int i = 0; i < POINTS; i++) {
 		double x, z;
-		section_point(2 * M_PI * i / (POINTS - 1), lerp(0.12, 0.10, s), &x, &z);
+		section_point(1 - 2.0 * i / (POINTS - 1), lerp(0.12, 0.10, s), &x, &z);
 		if (i == 0 || i == POINTS - 1) {
 			x = 1;
 			z = 0;

@@ -117,8 +117,8 @@ static void section_points(const struct tables *t, double s, struct vec3 p[POINT
 	double angle = atan(table_value(&t->pitch, ratio) / (M_PI * ratio));
 	double thick = table_value(&t->thick, ratio), camber = table_value(&t->camber, ratio);
 	for (int i = 0; i < POINTS; i++) {
-		double a = 2 * M_PI * i / (POINTS - 1), side = 2 * i < POINTS ? 1 : -1;
-		double x = i == 0 || i == POINTS - 1 ? 1 : (1 + cos(a)) / 2;
+		/* x = a^2 is smooth at the nose and does not stand still at the trailing edge */
+		double a = 1 - 2.0 * i / (POINTS - 1), side = a > 0 ? 1 : -1, x = a * a;
 		double along = (0.5 - x) * chord;
 		double off = chord * (camber * mean_line(x) + side * thick * half_thickness(t, x));
 		double forward = along * sin(angle) + off * cos(angle);

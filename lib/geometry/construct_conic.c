@@ -65,7 +65,7 @@ static enum status make_ellipse(struct curve *out, const struct conic *c, double
 		return report_error(r, ST_PARAMETER, "the conic's equation has no real points");
 	double a = ellipse_angle(p, center, axis), b = ellipse_angle(q, center, axis);
 	double size = fmax(vec3_length(axis[0]), vec3_length(axis[1]));
-	if (vec3_length(vec3_sub(p, q)) <= 1e-12 * size)
+	if (vec3_length(vec3_sub(p, q)) <= 1e-9 * size)
 		b = a + 2 * M_PI;
 	else if (b <= a)
 		b += 2 * M_PI;
