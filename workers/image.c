@@ -7,10 +7,17 @@
 #include "json.h"
 #include "picture.h"
 
+enum { PICTURE_SIDE = 32767 }; /* Cairo's limit */
+
 enum status image_init(struct image *im, struct work *w, const char *view, int width, int height,
                        int samples, const struct exr_channel *channels, int n_channels)
 {
 	memset(im, 0, sizeof *im);
+	if (work_flag(w, "png") && (width > PICTURE_SIDE || height > PICTURE_SIDE))
+		return report_error(&w->report, ST_PARAMETER,
+		                    "--size %dx%d is larger than a picture can be, expected %d at "
+		                    "most; make it smaller or leave --png out",
+		                    width, height, PICTURE_SIDE);
 	work_phase(w, "preparing", 0, 1);
 	enum status st =
 	        ray_scene_create(&im->scene, w->surfaces, w->n_surfaces, w->memory, &w->report);

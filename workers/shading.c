@@ -142,7 +142,13 @@ static size_t shading_units(const struct work *w)
 	return image_units(&s->image);
 }
 
-/* How much of a sample `gradient` (parameters a pixel) lies on one of the lines. */
+/* How much of a sample, `away` pixels from a line, the line covers. */
+static double line_cover(double away, double width, int samples)
+{
+	return fmin(fmax((0.5 * width - away) * samples + 0.5, 0), 1);
+}
+
+/* The same for the lines next to t; `gradient` is parameters a pixel. */
 static double lines_cover(const struct lines *l, double t, double gradient, double width,
                           int samples)
 {
@@ -156,13 +162,14 @@ static double lines_cover(const struct lines *l, double t, double gradient, doub
 		else
 			hi = middle;
 	}
-	double spacing = (l->at[hi] - l->at[lo]) / gradient;
-	double distance = fmin(t - l->at[lo], l->at[hi] - t) / gradient;
-	double cover = (0.5 * width - distance) * samples + 0.5;
+	/* of a line on the border all its width lies inside */
+	double below = line_cover((t - l->at[lo]) / gradient, lo == 0 ? 2 * width : width, samples);
+	double above =
+	        line_cover((l->at[hi] - t) / gradient, hi == l->n - 1 ? 2 * width : width, samples);
 	/* lines that run together say nothing: they fade */
-	double room = (spacing / width - 2) / 3;
+	double room = ((l->at[hi] - l->at[lo]) / gradient / width - 2) / 3;
 
-	return fmin(fmax(cover, 0), 1) * fmin(fmax(room, 0), 1);
+	return fmax(below, above) * fmin(fmax(room, 0), 1);
 }
 
 /* How fast u and v change over the image, in parameters a pixel. */

@@ -1,0 +1,380 @@
+/* test_images.c - the shading and ray tracing workers against formulas: masks, points, normals,
+ * light, shadows, mirrors. */
+#include "drive.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base.h"
+#include "construct.h"
+#include "exr.h"
+#include "json.h"
+
+static char *shading, *raytrace;
+
+static void write_model(const char *path, struct surface *s, int n)
+{
+	struct model m;
+
+	model_init(&m);
+	for (int i = 0; i < n; i++) {
+		struct entity e = { .kind = ENTITY_SURFACE, .surface = -1, .geometry = s[i] };
+
+		assert_int_equal(model_add(&m, &e), ST_OK);
+	}
+	model_number(&m);
+	assert_int_equal(base_write(&m, path, NULL), ST_OK);
+	model_finish(&m);
+}
+
+static struct surface sphere(struct vec3 c, double radius)
+{
+	struct surface s;
+
+	assert_int_equal(make_sphere(&s, c, radius), ST_OK);
+	return s;
+}
+
+/* The square of half width r at height z. */
+static struct surface square(double r, double z)
+{
+	const struct vec3 corner[4] = { { -r, -r, z }, { r, -r, z }, { -r, r, z }, { r, r, z } };
+	struct surface s;
+
+	assert_int_equal(make_bilinear(&s, corner), ST_OK);
+	return s;
+}
+
+static int enter(void **state)
+{
+	static struct place place;
+
+	*state = &place;
+	place_enter(&place);
+	write_model("sphere.base", (struct surface[]){ sphere(vec3(0, 0, 0), 2) }, 1);
+	write_model("square.base", (struct surface[]){ square(2, 0) }, 1);
+	write_model("stack.base", (struct surface[]){ square(2, 0), square(1, 1) }, 2);
+	write_model("ball.base", (struct surface[]){ square(4, 0), sphere(vec3(0, 0, 1.5), 1) }, 2);
+	return 0;
+}
+
+static int leave(void **state)
+{
+	place_leave(*state);
+	return 0;
+}
+
+#define RUN(worker, ...)                                                                           \
+	do {                                                                                       \
+		struct ran r = run_hand(worker, __VA_ARGS__, NULL);                                \
+		if (r.exit_status)                                                                 \
+			fail_msg("exit status %d: %s", r.exit_status, r.err);                      \
+		ran_finish(&r);                                                                    \
+	} while (0)
+
+/* An image with its planes by name. */
+struct seen {
+	struct exr_picture picture;
+	int n;
+	const float *r, *g, *b, *a, *z, *normal[3], *point[3];
+};
+
+static void see(struct seen *s, const char *path)
+{
+	static const char *const names[2][3] = { { "N.X", "N.Y", "N.Z" }, { "P.X", "P.Y", "P.Z" } };
+
+	assert_int_equal(exr_read(&s->picture, path, NULL), ST_OK);
+	assert_int_equal(s->picture.n_channels, 11);
+	s->n = s->picture.width * s->picture.height;
+	s->r = exr_plane(&s->picture, "R");
+	s->g = exr_plane(&s->picture, "G");
+	s->b = exr_plane(&s->picture, "B");
+	s->a = exr_plane(&s->picture, "A");
+	s->z = exr_plane(&s->picture, "Z");
+	for (int e = 0; e < 3; e++) {
+		s->normal[e] = exr_plane(&s->picture, names[0][e]);
+		s->point[e] = exr_plane(&s->picture, names[1][e]);
+	}
+}
+
+static double figure(const struct seen *s, const char *name)
+{
+	const char *text = exr_text(&s->picture, "figures");
+	json_t *figures;
+
+	assert_non_null(text);
+	assert_int_equal(json_parse_object(text, strlen(text), "figures", &figures, NULL), ST_OK);
+	assert_true(json_is_number(json_object_get(figures, name)));
+	double x = json_number(figures, name, NAN);
+	json_decref(figures);
+	return x;
+}
+
+static void near(double a, double b, double tolerance)
+{
+	if (!(fabs(a - b) <= tolerance))
+		fail_msg("%.9g is not %.9g within %g", a, b, tolerance);
+}
+
+/* A white sphere with the light at the viewer's: both workers must give N . L and nothing else,
+ * without a speckle; what is not covered is empty. */
+static void test_sphere(void **state)
+{
+	static const char *const outputs[2] = { "sphere.shade.exr", "sphere.trace.exr" };
+
+	(void)state;
+	for (int k = 0; k < 2; k++) {
+		struct seen s;
+		size_t covered = 0;
+
+		if (k == 0)
+			RUN(shading, "sphere.base", "--view", "front", "--size", "200x160",
+			    "--samples", "1", "--light", "0,-3,0", "--ambient", "0", "--diffuse",
+			    "1", "--specular", "0", "--color", "#FFFFFF");
+		else
+			RUN(raytrace, "sphere.base", "--view", "front", "--size", "200x160",
+			    "--samples", "1", "--light", "0,-3,0", "--ambient", "0", "--diffuse",
+			    "1", "--specular", "0", "--color", "#FFFFFF", "--mirror", "0");
+		see(&s, outputs[k]);
+		for (int i = 0; i < s.n; i++) {
+			double p[3], along = 0;
+
+			if (s.a[i] == 0) {
+				assert_true(s.r[i] == 0 && s.g[i] == 0 && s.b[i] == 0);
+				assert_true(isinf(s.z[i]));
+				continue;
+			}
+			covered++;
+			near((double)s.a[i], 1, 0);
+			for (int e = 0; e < 3; e++) {
+				p[e] = (double)s.point[e][i];
+				along += p[e] * (double)s.normal[e][i];
+			}
+			near(sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]), 2, 1e-6);
+			near(fabs(along), 2, 1e-6);
+			near((double)s.r[i], -p[1] / 2, 1e-3);
+			near((double)s.g[i], (double)s.r[i], 0);
+			/* the eye stands at -y */
+			near((double)s.z[i] - p[1], (double)s.z[s.n / 2 + 100] + 2, 2e-3);
+		}
+		/* 6 % of margin a side of the smaller side */
+		near((double)covered, M_PI * 70.4 * 70.4, 200);
+		near(figure(&s, "pixels"), (double)covered, 0);
+		near(figure(&s, "rays"), k ? 200 * 160 + (double)covered : 200 * 160, 0);
+		near(figure(&s, "surfaces"), 1, 0);
+		assert_true(figure(&s, "depth_min") < figure(&s, "depth_max"));
+		exr_picture_finish(&s.picture);
+	}
+}
+
+static void test_nearest_surface(void **state)
+{
+	struct seen s;
+
+	(void)state;
+	RUN(shading, "stack.base", "--view", "top", "--size", "100x100");
+	see(&s, "stack.shade.exr");
+	for (int i = 0; i < s.n; i++) {
+		double x = (double)s.point[0][i], y = (double)s.point[1][i];
+
+		if (s.a[i] < 1)
+			continue;
+		near((double)s.point[2][i], fabs(x) < 1 && fabs(y) < 1 ? 1 : 0, 1e-6);
+		near(fabs((double)s.normal[2][i]), 1, 1e-6);
+	}
+	near(figure(&s, "surfaces"), 2, 0);
+	near(figure(&s, "depth_max") - figure(&s, "depth_min"), 1, 1e-6);
+	exr_picture_finish(&s.picture);
+}
+
+/* Dark runs of a row of pixels, inside the square. */
+static int dark_runs(const struct seen *s, int row)
+{
+	int runs = 0;
+	bool was = false;
+
+	for (int x = 0; x < s->picture.width; x++) {
+		int i = row * s->picture.width + x;
+		bool dark = s->a[i] == 1 && s->r[i] < 0.75f * s->r[s->n / 2 + 7];
+
+		runs += dark && !was;
+		was = dark;
+	}
+	return runs;
+}
+
+static void test_lines(void **state)
+{
+	struct seen s;
+
+	(void)state;
+	RUN(shading, "square.base", "--view", "top", "--size", "211x211", "--wire", "5x3",
+	    "--line-width", "2");
+	see(&s, "square.shade.exr");
+	assert_int_equal(dark_runs(&s, 105), 6);
+	exr_picture_finish(&s.picture);
+	RUN(shading, "square.base", "--view", "top", "--size", "211x211", "--edges", "--line-width",
+	    "2");
+	see(&s, "square.shade.exr");
+	assert_int_equal(dark_runs(&s, 105), 2);
+	exr_picture_finish(&s.picture);
+}
+
+/* The light straight above a ball: its shadow on the square is a disk, exactly. */
+static void test_shadow(void **state)
+{
+	struct seen s;
+	int dark = 0, bright = 0;
+
+	(void)state;
+	RUN(raytrace, "ball.base", "--light", "0,0,1", "--view", "-90,30", "--size", "240x160",
+	    "--samples", "1", "--ambient", "0", "--mirror", "0", "--specular", "0");
+	see(&s, "ball.trace.exr");
+	for (int i = 0; i < s.n; i++) {
+		double x = (double)s.point[0][i], y = (double)s.point[1][i];
+
+		if (s.a[i] < 1 || fabs((double)s.point[2][i]) > 1e-6)
+			continue;
+		double r = hypot(x, y);
+		if (fabs(r - 1) < 1e-3)
+			continue;
+		assert_int_equal(s.r[i] > 0, r > 1);
+		dark += r < 1;
+		bright += r > 1;
+	}
+	assert_true(dark > 100 && bright > 1000);
+	exr_picture_finish(&s.picture);
+	RUN(raytrace, "ball.base", "--light", "0,0,1", "--view", "-90,30", "--size", "240x160",
+	    "--samples", "1", "--ambient", "0", "--mirror", "0", "--shadows", "no");
+	see(&s, "ball.trace.exr");
+	for (int i = 0; i < s.n; i++)
+		if (s.a[i] == 1 && fabs((double)s.point[2][i]) < 1e-6)
+			assert_true(s.r[i] > 0);
+	exr_picture_finish(&s.picture);
+}
+
+/* A perfect mirror shows stripes, or the ball; without anything around it is black. */
+static void test_mirror(void **state)
+{
+	struct seen s;
+	int bright = 0, dark = 0, between = 0;
+
+	(void)state;
+	RUN(raytrace, "sphere.base", "--mirror", "1", "--size", "160x160", "--samples", "1");
+	see(&s, "sphere.trace.exr");
+	for (int i = 0; i < s.n; i++) {
+		if (s.a[i] < 1)
+			continue;
+		bright += s.g[i] > 0.9f;
+		dark += s.g[i] < 0.05f;
+		between += s.g[i] >= 0.05f && s.g[i] <= 0.9f;
+	}
+	assert_true(bright > 2000 && dark > 2000 && between < (bright + dark) / 4);
+	exr_picture_finish(&s.picture);
+
+	RUN(raytrace, "square.base", "--mirror", "1", "--environment", "none", "--size", "40x40");
+	see(&s, "square.trace.exr");
+	for (int i = 0; i < s.n; i++)
+		near((double)s.r[i], 0, 1e-6);
+	exr_picture_finish(&s.picture);
+
+	double rays[2];
+	for (int depth = 0; depth < 2; depth++) {
+		RUN(raytrace, "ball.base", "--view", "-90,30", "--depth", depth ? "1" : "0",
+		    "--environment", "sky", "--size", "80x80", "--shadows", "no");
+		see(&s, "ball.trace.exr");
+		rays[depth] = figure(&s, "rays");
+		exr_picture_finish(&s.picture);
+	}
+	near(rays[0], 80 * 80 * 9, 0);
+	assert_true(rays[1] > rays[0]);
+}
+
+/* Same bytes on one thread and on three, and pictures that are there. */
+static void test_same_bytes(void **state)
+{
+	char *const workers[2] = { shading, raytrace };
+	static const char *const names[2] = { "shade", "trace" };
+
+	(void)state;
+	for (int k = 0; k < 2; k++) {
+		char a[2][32], png[2][32];
+
+		for (int i = 0; i < 2; i++) {
+			snprintf(a[i], sizeof a[i], "%c.%s.exr", 'a' + i, names[k]);
+			snprintf(png[i], sizeof png[i], "%c.%s.png", 'a' + i, names[k]);
+			RUN(workers[k], "ball.base", "--size", "150x100", "--threads",
+			    i ? "3" : "1", "-o", i ? "b" : "a", "--png", "--view",
+			    "three-quarter:perspective");
+			assert_true(there(png[i]));
+		}
+		assert_same_file(a[0], a[1]);
+		assert_same_file(png[0], png[1]);
+	}
+}
+
+static void test_refused(void **state)
+{
+	static const struct {
+		const char *option, *value, *word;
+	} cases[] = {
+		{ "--size", "0x10", "size" },     { "--samples", "0", "samples" },
+		{ "--view", "sideways", "view" }, { "--light", "0,0,0", "direction" },
+		{ "--color", "red", "color" },    { "--samples", "99", "samples" },
+	};
+	char *const workers[2] = { shading, raytrace };
+
+	(void)state;
+	for (int k = 0; k < 2; k++)
+		for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+			struct ran r = run_hand(workers[k], "sphere.base", "-o", "refused",
+			                        cases[i].option, cases[i].value, NULL);
+
+			assert_int_equal(r.exit_status, 2);
+			if (!strstr(r.err, cases[i].word))
+				fail_msg("'%s' is not in '%s'", cases[i].word, r.err);
+			assert_false(there("refused.shade.exr") || there("refused.trace.exr"));
+			ran_finish(&r);
+		}
+	struct ran r = run_hand(raytrace, "sphere.base", "--stripe-direction", "0,0,0", NULL);
+	assert_int_equal(r.exit_status, 2);
+	ran_finish(&r);
+	r = run_hand(shading, "sphere.base", "--size", "40000x4", "--png", NULL);
+	assert_int_equal(r.exit_status, 2);
+	ran_finish(&r);
+
+	/* a surface without extent */
+	struct surface s = sphere(vec3(1, 1, 1), 2);
+	for (int i = 0; i < s.n[0]; i++)
+		for (int j = 0; j < s.n[1]; j++)
+			surface_set_point(&s, i, j, vec3(1, 1, 1), 1);
+	write_model("point.base", &s, 1);
+	r = run_hand(shading, "point.base", NULL);
+	assert_int_equal(r.exit_status, 1);
+	assert_non_null(strstr(r.err, "point"));
+	assert_false(there("point.shade.exr"));
+	ran_finish(&r);
+}
+
+int main(int argc, char **argv)
+{
+	if (argc < 3)
+		return 2;
+	shading = realpath(argv[1], NULL); /* tests work in other folders */
+	raytrace = realpath(argv[2], NULL);
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(test_sphere, enter, leave),
+		cmocka_unit_test_setup_teardown(test_nearest_surface, enter, leave),
+		cmocka_unit_test_setup_teardown(test_lines, enter, leave),
+		cmocka_unit_test_setup_teardown(test_shadow, enter, leave),
+		cmocka_unit_test_setup_teardown(test_mirror, enter, leave),
+		cmocka_unit_test_setup_teardown(test_same_bytes, enter, leave),
+		cmocka_unit_test_setup_teardown(test_refused, enter, leave),
+	};
+	int rc = cmocka_run_group_tests(tests, NULL, NULL);
+
+	free(shading);
+	free(raytrace);
+	return rc;
+}
