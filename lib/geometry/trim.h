@@ -1,0 +1,55 @@
+/* trim.h - the part of a surface that its trimming loops leave.
+ *
+ * A loop is a closed chain of curves in the surface's u,v plane, each starting where the one before
+ * ends. A point belongs to the trimmed surface if it is inside an outer loop (or there is none: the
+ * whole domain) and outside every inner one.
+ */
+#ifndef BATTEN_TRIM_H
+#define BATTEN_TRIM_H
+
+#include "curve.h"
+#include "surface.h"
+
+struct trim_loop {
+	struct curve *curves; /* owned; x and y are u and v, z = 0 */
+	int n;
+	bool outer;
+};
+
+struct trim {
+	struct trim_loop *loops; /* owned */
+	int n;
+};
+
+void trim_finish(struct trim *t); /* a zeroed one is fine */
+enum status trim_copy(struct trim *out, const struct trim *t);
+
+/* Append a loop (moved in). Errors: ST_RESOURCE. */
+enum status trim_add(struct trim *t, struct trim_loop *loop);
+
+/*
+ * Check and mend: curves put in order and direction, gaps up to `tolerance` (in space, file units)
+ * closed, loops that run outside the domain by rounding brought back, loops over the seam of a
+ * closed surface cut there, curves that are the domain's border recognised. What was mended is
+ * said as a note; what cannot be is an error and leaves *t as it was.
+ * Errors: ST_INPUT (a loop not closed, leaving the domain, crossing itself), ST_RESOURCE.
+ */
+enum status trim_mend(struct trim *t, const struct surface *s, double tolerance, const char *what,
+                      const struct report *r);
+
+/* Fast tests of points: a trim prepared for one surface; read-only, any thread. */
+struct trim_test;
+enum status trim_test_create(struct trim_test **out, const struct trim *t, const struct surface *s);
+void trim_test_destroy(struct trim_test *x); /* NULL is fine */
+
+/* Is (u, v) left? Exact but for points nearer to a loop than 1e-12 of the domain. */
+bool trim_test_inside(const struct trim_test *x, double u, double v);
+
+/* For boxes of parameters: 1 wholly inside, -1 wholly outside, 0 a loop runs through. */
+int trim_test_box(const struct trim_test *x, const double lo[2], const double hi[2]);
+
+/* Area of what is left, to a relative accuracy; *error is an estimate. Errors: ST_RESOURCE. */
+enum status trim_area(const struct trim *t, const struct surface *s, double accuracy, double *area,
+                      double *error);
+
+#endif
