@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "json.h"
+#include "path.h"
 #include "worker_private.h"
 
 enum { BAR_WIDTH = 30, FIGURES_WIDTH = 100 };
@@ -102,7 +103,8 @@ static void show_result(void *data, const struct result *result)
 	if (h->json) {
 		keep_result(h, result);
 	} else {
-		figures_line(&line, result->figures);
+		if (path_has_suffix(result->path, worker.outputs[0].extension))
+			figures_line(&line, result->figures);
 		printf("%s%s%s\n", result->path, line.n && !line.failed ? ": " : "",
 		       line.n && !line.failed ? line.s : "");
 		fflush(stdout);
