@@ -31,6 +31,9 @@ struct launcher {
 	/* Could this job be started? Errors: ST_PARAMETER (no such worker), ST_INPUT (an input is
 	 * not there). */
 	enum status (*check)(void *data, const struct Stats *s, const struct report *r);
+	/* See to it that the worker which an earlier service started for s is gone: a dead service's
+	 * lock is free a moment before its workers die, and two must not write one part file. */
+	void (*bury)(void *data, const struct Stats *s);
 	/* Start its worker; pid, host and log of s are filled in. */
 	enum status (*start)(void *data, struct Stats *s, const struct report *r);
 	/* Never waits; what does not fit in the pipe is not sent. */

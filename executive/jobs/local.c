@@ -60,6 +60,15 @@ static enum status local_check(void *data, const struct Stats *s, const struct r
 	return ST_OK;
 }
 
+static void local_bury(void *data, const struct Stats *s)
+{
+	struct local *l = data;
+	enum status st;
+	const char *path = s->worker ? worker_path(l, s->worker, &st, NULL) : NULL;
+	if (path && s->host && !strcmp(s->host, l->host))
+		process_bury(s->pid, path);
+}
+
 static int log_open(struct local *l, struct Stats *s)
 {
 	free(s->log);
@@ -227,6 +236,7 @@ enum status local_create(struct local **out, uv_loop_t *loop, const struct proje
 	l->launcher = (struct launcher){
 		.data = l,
 		.check = local_check,
+		.bury = local_bury,
 		.start = local_start,
 		.send = local_send,
 		.signal = local_signal,

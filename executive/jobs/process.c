@@ -1,10 +1,12 @@
-/* process.c - start one process behind the stub. */
+/* process.c - start one process behind the stub, and end one left by a dead service. */
 #include "process.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/pidfd.h>
@@ -80,4 +82,35 @@ fail_to:
 fail:
 	return report_error(r, ST_RESOURCE, "cannot start worker '%s': %s", s->worker,
 	                    strerror(error));
+}
+
+enum { BURY_MS = 3000 };
+
+static bool runs_worker(pid_t pid, const char *worker)
+{
+	char path[64], line[4096];
+	snprintf(path, sizeof path, "/proc/%ld/cmdline", (long)pid);
+	int fd = open(path, O_RDONLY | O_CLOEXEC);
+	ssize_t n = fd < 0 ? -1 : read(fd, line, sizeof line - 1);
+	if (fd >= 0)
+		close(fd);
+	if (n <= 0)
+		return false;
+	line[n] = '\0';
+	/* one of its words, with the zero byte behind it: a script stands behind its interpreter */
+	return memmem(line, (size_t)n + 1, worker, strlen(worker) + 1) ||
+	       strstr(line, "batten-launch");
+}
+
+void process_bury(pid_t pid, const char *worker)
+{
+	/* opened first: from then on the number cannot come to mean another */
+	struct pollfd p = { .fd = pidfd_open(pid, 0), .events = POLLIN };
+	if (p.fd < 0)
+		return;
+	if (getpgid(pid) == pid && runs_worker(pid, worker)) {
+		kill(-pid, SIGKILL);
+		poll(&p, 1, BURY_MS);
+	}
+	close(p.fd);
 }

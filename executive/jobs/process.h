@@ -1,4 +1,4 @@
-/* process.h - start one process behind the stub. */
+/* process.h - start one process behind the stub, and end one left by a dead service. */
 #ifndef BATTEN_PROCESS_H
 #define BATTEN_PROCESS_H
 
@@ -18,5 +18,9 @@ struct spawn {
  * pidfd becomes readable when it ends. Errors: ST_RESOURCE. */
 enum status spawn_worker(const struct spawn *s, pid_t *pid, int *in, int *out, int *pidfd,
                          const struct report *r);
+
+/* If process pid leads its group and runs that worker (others may have got its number since), kill the
+ * group and wait for its end, a few seconds at most. It need not be a child. */
+void process_bury(pid_t pid, const char *worker);
 
 #endif

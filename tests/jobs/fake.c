@@ -19,6 +19,12 @@ static enum status fake_check(void *data, const struct Stats *s, const struct re
 	return ST_OK;
 }
 
+static void fake_bury(void *data, const struct Stats *s)
+{
+	struct fake *f = data;
+	text_addf(&f->log, "bury %ld;", (long)s->pid);
+}
+
 static enum status fake_start(void *data, struct Stats *s, const struct report *r)
 {
 	struct fake *f = data;
@@ -143,6 +149,7 @@ void fake_init(struct fake *f)
 	*f = (struct fake){
 		.launcher = { .data = f,
 		              .check = fake_check,
+		              .bury = fake_bury,
 		              .start = fake_start,
 		              .send = fake_send,
 		              .signal = fake_signal,

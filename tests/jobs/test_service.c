@@ -15,6 +15,7 @@
 #include <cmocka.h>
 
 #include "file.h"
+#include "ledger.h"
 #include "lock.h"
 #include "path.h"
 #include "place.h"
@@ -169,6 +170,13 @@ static void shutdown_stops_at_a_unit_and_the_next_start_goes_on(void **state)
 	free(gate);
 }
 
+static bool keep_id(void *data, const struct Stats *s)
+{
+	int64_t *id = data;
+	*id = s->id;
+	return true;
+}
+
 static void a_second_service_is_refused(void **state)
 {
 	struct place *p = *state;
@@ -202,6 +210,96 @@ static void many_clients_start_one_service(void **state)
 		assert_int_equal(status, 0);
 	}
 	place_connect(p);
+}
+
+/* As after a crash: the ledger says it runs, its worker has not died yet. */
+static void a_worker_left_behind_is_ended_before_its_job_goes_on(void **state)
+{
+	struct place *p = *state;
+	int in[2];
+	char *path = path_join(p->project.hidden, "workers/batten-stubborn");
+	char *ledger = path_join(p->project.hidden, "jobs.db"), host[256] = "",
+	     worker[] = "stubborn";
+	char output[] = "/tmp/none";
+	place_crash(p);
+	assert_int_equal(pipe2(in, O_CLOEXEC), 0);
+	pid_t pid = fork();
+	if (pid == 0) {
+		setpgid(0, 0);
+		dup2(in[0], 0);
+		dup2(open("/dev/null", O_WRONLY), 1);
+		execl(path, path, NULL);
+		_exit(1);
+	}
+	setpgid(pid, pid);
+	struct pollfd gone = { .fd = pidfd_open(pid, 0), .events = POLLIN };
+	struct Stats s;
+	struct ledger l;
+	struct ledger_change c = { .id = 1, .stats = &s };
+	gethostname(host, sizeof host - 1);
+	stats_init(&s);
+	s.id = 1;
+	s.worker = worker;
+	s.output = output;
+	s.host = host;
+	s.pid = pid;
+	s.state = JOB_RUNNING;
+	assert_int_equal(ledger_open(&l, ledger, NULL), ST_OK);
+	assert_int_equal(l.write(l.data, &c, 1, true, NULL), ST_OK);
+	ledger_close(&l);
+	place_connect(p);
+	assert_int_equal(poll(&gone, 1, 0), 1); /* before anybody is answered */
+	int status = 0;
+	waitpid(pid, &status, 0);
+	assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+	place_until(p, 1, JOB_RUNNING);
+	kill(place_job(p, 1)->pid, SIGKILL);
+	assert_int_equal(place_end(p, 1)->state, JOB_FAILED);
+	close(gone.fd);
+	close(in[0]);
+	close(in[1]);
+	free(path);
+	free(ledger);
+}
+
+static void crash_after_crash_every_job_is_done(void **state)
+{
+	enum { N = 24, CRASHES = 12 };
+	struct place *p = *state;
+	char *gate = place_gate(p, "gate");
+	for (int i = 0; i < N; i++)
+		place_submit(p, "good", 5, gate);
+	for (int i = 0; i < CRASHES; i++) {
+		/* each time at another moment of starting, stepping and ending */
+		place_open_gate(p, "gate", 1 + 7 * i % 11);
+		if (i % 3)
+			place_job(p, 1 + i);
+		place_crash(p);
+		place_connect(p);
+	}
+	place_open_gate(p, "gate", 5 * N);
+	for (int i = 0; i < N; i++)
+		assert_int_equal(place_end(p, 1 + i)->state, JOB_DONE);
+	free(gate);
+}
+
+static void the_stub_sets_what_a_worker_must_not(void **state)
+{
+	struct place *p = *state;
+	char *text;
+	size_t n;
+	int64_t id = 0;
+	json_t *job = json_pack("{s:s, s:s, s:i, s:i}", "worker", "shows", "output", "/tmp/none",
+	                        "memory_mib", 1000, "threads", 2);
+	assert_int_equal(client_request(p->client, MESSAGE_SUBMIT,
+	                                json_pack("{s:[o]}", "jobs", job), keep_id, NULL, &id,
+	                                NULL),
+	                 ST_OK);
+	assert_int_equal(place_end(p, id)->state, JOB_DONE);
+	assert_int_equal(file_read(place_job(p, id)->log, 10000, &text, &n, NULL), ST_OK);
+	assert_string_equal(text, "nice 5, data 1288, core 0, death 9, group 1, open 0, blas 1, "
+	                          "here 1\n");
+	free(text);
 }
 
 static bool count_jobs(void *data, const struct Stats *s)
@@ -468,6 +566,9 @@ int main(void)
 		T(shutdown_stops_at_a_unit_and_the_next_start_goes_on),
 		T(a_second_service_is_refused),
 		T(many_clients_start_one_service),
+		T(a_worker_left_behind_is_ended_before_its_job_goes_on),
+		T(crash_after_crash_every_job_is_done),
+		T(the_stub_sets_what_a_worker_must_not),
 		T(groups_are_named_as_one),
 		T(bad_submissions_queue_nothing),
 		T(bad_packets_end_only_their_own_connection),

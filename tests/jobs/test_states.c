@@ -193,7 +193,7 @@ static void a_restart_finds_every_job(void **state)
 	f->limits.jobs = 1;
 	fake_restart(f);
 	/* what ran goes on first, whatever the priority of those that wait */
-	assert_string_equal(fake_log(f), "start 1;");
+	assert_string_equal(fake_log(f), "bury 1001;bury 1002;bury 1003;start 1;");
 	assert_int_equal(fake_state(f, starting), JOB_QUEUED);
 	assert_int_equal(fake_state(f, suspended), JOB_SUSPENDED);
 	assert_int_equal(fake_state(f, held), JOB_HELD);
