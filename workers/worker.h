@@ -138,7 +138,8 @@ enum status work_put(struct work *w, size_t unit, const void *bytes, size_t n);
 /* In finish: a unit's bytes, valid until the end. Thread: any. */
 enum status work_get(struct work *w, size_t unit, const char **bytes, size_t *n);
 
-/* Progress inside begin or finish, where those take longer than half a second. Thread: any. */
+/* Progress inside begin or finish, where those take longer than half a second; units are told of
+ * by themselves. Thread: any. */
 void work_phase(struct work *w, const char *phase, size_t done, size_t total);
 
 /* True when it is time to stop: long loops ask now and then and return ST_CANCELLED. */

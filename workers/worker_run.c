@@ -248,7 +248,7 @@ static enum status compute(struct work *w, const char *part)
 	return st;
 }
 
-/* The files' names are the part file's lock: by hand it stands beside the output. */
+/* Where no one names a part file it stands beside the output; its lock keeps two runs apart. */
 static char *part_path(const struct work *w)
 {
 	const struct work_private *p = w->private;
