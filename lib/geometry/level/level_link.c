@@ -120,6 +120,24 @@ static void link_pole(struct joint *j, const struct edge_end *e, int n)
 	}
 }
 
+/* On a crease curves end, but where its angle vanishes they go on. e[0 .. middle) lie below it. */
+static void link_crease(struct joint *j, struct edge_end *e, int middle, int n)
+{
+	int kept = 0, below = 0;
+	for (int k = 0; k < n; k++) {
+		if (!level_smooth_at(j->level->surface, e[k].d, e[k].line, e[k].along, e[k].at)) {
+			j->links[e[k].end].kind = LINK_END;
+			continue;
+		}
+		below += k < middle;
+		e[kept++] = e[k];
+	}
+	link_edge(j, e, below, e + below, kept - below, EDGE_CREASE, e[0].line == 0);
+	for (int k = 0; k < kept; k++)
+		if (j->links[e[k].end].kind == LINK_NONE)
+			j->links[e[k].end].kind = LINK_END;
+}
+
 static void link_edges(struct joint *j, struct edge_end *e, int n)
 {
 	const struct level_surface *s = j->level->surface;
@@ -140,6 +158,8 @@ static void link_edges(struct joint *j, struct edge_end *e, int n)
 			while (end < n && e[end].d == d && e[end].line == e[i].line)
 				end++;
 			link_pole(j, e + i, end - i);
+		} else if (kind == EDGE_CREASE) {
+			link_crease(j, e + i, middle - i, end - i);
 		} else {
 			for (int k = i; k < end; k++)
 				j->links[e[k].end].kind = LINK_END;

@@ -220,16 +220,38 @@ static double side_difference(const struct side *a, const struct side *b, double
 	return most;
 }
 
-static bool side_smooth(const struct side *a, const struct side *b)
+static bool smooth_at(const struct side *a, const struct side *b, double t)
 {
 	double w[NORMAL_DEGREE_MAX + 1];
-	for (int i = 0; i < EDGE_SAMPLES; i++) {
-		bernstein(a->degree + 1, (i + 0.5) / EDGE_SAMPLES, w, NULL);
-		struct vec3 x = vec3_unit(side_at(a, w)), y = vec3_unit(side_at(b, w));
-		if (vec3_length(vec3_sub(x, y)) > SMOOTH_ANGLE)
+	bernstein(a->degree + 1, t, w, NULL);
+	struct vec3 x = vec3_unit(side_at(a, w)), y = vec3_unit(side_at(b, w));
+	return vec3_length(vec3_sub(x, y)) <= SMOOTH_ANGLE;
+}
+
+static bool side_smooth(const struct side *a, const struct side *b)
+{
+	for (int i = 0; i < EDGE_SAMPLES; i++)
+		if (!smooth_at(a, b, (i + 0.5) / EDGE_SAMPLES))
 			return false;
-	}
 	return true;
+}
+
+/* The patches below and above a line, the two ends of a seam being one line. */
+static void patches_at(const struct level_surface *s, int d, int line, int along, int patch[2])
+{
+	int lines = s->net.spans[d], across = s->net.spans[1 - d];
+	int at[2] = { line > 0 ? line - 1 : lines - 1, line < lines ? line : 0 };
+	for (int k = 0; k < 2; k++)
+		patch[k] = d == 0 ? at[k] * across + along : along * lines + at[k];
+}
+
+bool level_smooth_at(const struct level_surface *s, int d, int line, int along, double at)
+{
+	int patch[2];
+	patches_at(s, d, line, along, patch);
+	struct side a = side_of(s->normals + level_normals_size(s) * patch[0], s->degree, d, true);
+	struct side b = side_of(s->normals + level_normals_size(s) * patch[1], s->degree, d, false);
+	return smooth_at(&a, &b, at);
 }
 
 static enum edge_kind edge_between(struct level_surface *s, int lower, int upper, int d)
@@ -242,7 +264,7 @@ static enum edge_kind edge_between(struct level_surface *s, int lower, int upper
 	struct side b = side_of(net->points + size * upper, degree, d, false);
 	double gap = side_difference(&a, &b, &most);
 	if (gap > GAP_SHARE * larger(net->size, most))
-		return EDGE_CREASE;
+		return EDGE_GAP;
 	if (s->kind == LEVEL_PLANE)
 		return gap == 0 ? EDGE_SHARED : EDGE_SMOOTH;
 	a = side_of(s->normals + level_normals_size(s) * lower, s->degree, d, true);
@@ -276,13 +298,12 @@ static bool ends_meet(const struct level_surface *s, int d)
 	const struct bezier_net *net = &s->net;
 	int degree[2] = { net->order[0] - 1, net->order[1] - 1 };
 	size_t size = bezier_patch_size(net);
-	int lines = net->spans[d], across = net->spans[1 - d];
 	double most;
-	for (int a = 0; a < across; a++) {
-		int last = d == 0 ? (lines - 1) * across + a : a * lines + lines - 1;
-		int first = d == 0 ? a : a * lines;
-		struct side x = side_of(net->points + size * last, degree, d, true);
-		struct side y = side_of(net->points + size * first, degree, d, false);
+	for (int a = 0; a < net->spans[1 - d]; a++) {
+		int patch[2];
+		patches_at(s, d, 0, a, patch);
+		struct side x = side_of(net->points + size * patch[0], degree, d, true);
+		struct side y = side_of(net->points + size * patch[1], degree, d, false);
 		if (side_difference(&x, &y, &most) > GAP_SHARE * larger(net->size, most))
 			return false;
 	}
@@ -301,14 +322,12 @@ void level_edges(struct level_surface *s)
 		s->net.closed[d] = net->closed[d] || ends_meet(s, d);
 		for (int line = 0; line <= lines; line++)
 			for (int a = 0; a < across; a++) {
-				int lower = line > 0 ? line - 1 : lines - 1;
-				int upper = line < lines ? line : 0;
-				int lo = d == 0 ? lower * across + a : a * lines + lower;
-				int up = d == 0 ? upper * across + a : a * lines + upper;
+				int patch[2];
+				patches_at(s, d, line, a, patch);
 				bool inside = (line > 0 && line < lines) || net->closed[d];
-				enum edge_kind k = inside      ? edge_between(s, lo, up, d)
-				                   : line == 0 ? edge_outside(s, up, d, false)
-				                               : edge_outside(s, lo, d, true);
+				enum edge_kind k = inside ? edge_between(s, patch[0], patch[1], d)
+				                   : line == 0 ? edge_outside(s, patch[1], d, false)
+				                               : edge_outside(s, patch[0], d, true);
 				s->edges[d][d == 0 ? level_edge(s, 0, line, a)
 				                   : level_edge(s, 1, a, line)] = k;
 			}

@@ -34,7 +34,8 @@ enum edge_kind {
 	EDGE_BORDER, /* the surface ends */
 	EDGE_SHARED, /* both sides have the same coefficients there, to the bit */
 	EDGE_SMOOTH, /* same normals, other coefficients (geometric continuity, rounded data) */
-	EDGE_CREASE, /* normals differ, or a gap */
+	EDGE_CREASE, /* normals differ, at least somewhere on it */
+	EDGE_GAP,    /* the patches do not meet */
 	EDGE_POLE,   /* the surface ends in one point */
 };
 
@@ -95,6 +96,9 @@ static inline const double *binomial_row(const double *triangle, int n)
 /* level_normal.c */
 enum status level_normals(struct level_surface *s);
 void level_edges(struct level_surface *s);
+
+/* The normals on both sides of edge (d, line, along), at `at` on it, make no crease there. */
+bool level_smooth_at(const struct level_surface *s, int d, int line, int along, double at);
 
 /* level_roots.c: polynomials in one variable, Bernstein coefficients c[0 .. n]; zero counts as
  * positive. */
