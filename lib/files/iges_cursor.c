@@ -154,11 +154,9 @@ int iges_int(struct iges_cursor *c)
 int iges_count(struct iges_cursor *c, const char *what, int64_t lo, int64_t hi)
 {
 	int n = iges_int(c);
-	if (n < lo)
-		iges_fail(c, "%s %d, expected %lld or more", what, n, (long long)lo);
-	else if (n > hi)
-		iges_fail(c, "%s %d, more than its parameters can hold (%lld)", what, n,
-		          (long long)hi);
+	if (n < lo || n > hi)
+		iges_fail(c, "%s %d, expected %lld to %lld", what, n, (long long)lo,
+		          (long long)(hi > lo ? hi : lo));
 	return c->st == ST_OK ? n : 0;
 }
 

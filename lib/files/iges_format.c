@@ -111,6 +111,17 @@ static void put_point(struct writer *w, const double *p)
 		put_real(w, p[3] == 1 ? p[k] : p[k] / p[3], ',');
 }
 
+/* Ends nearer than this part of the size are said to join. */
+static const double closed_within = 1e-9;
+
+static double curve_size(const struct curve *c)
+{
+	struct box b = box_empty();
+	for (int i = 0; i < c->n; i++)
+		box_add_point(&b, curve_get_point(c, i, NULL));
+	return box_diagonal(&b);
+}
+
 /* The plane z = 0 is the only one told: its normal must then follow. */
 static bool in_plane(const struct curve *c)
 {
@@ -123,11 +134,13 @@ static bool in_plane(const struct curve *c)
 static void put_curve(struct writer *w, const struct curve *c)
 {
 	bool planar = in_plane(c);
-	const int head[] = {
-		126,        c->n - 1,           c->order - 1,
-		planar,     curve_closed(c, 0), all_weights_equal(c->points, (size_t)c->n),
-		c->periodic
-	};
+	const int head[] = { 126,
+		             c->n - 1,
+		             c->order - 1,
+		             planar,
+		             curve_closed(c, closed_within * curve_size(c)),
+		             all_weights_equal(c->points, (size_t)c->n),
+		             c->periodic };
 	for (size_t i = 0; i < sizeof head / sizeof head[0]; i++)
 		put_int(w, head[i], ',');
 	put_reals(w, c->knots, (size_t)c->n + c->order);
@@ -143,13 +156,14 @@ static void put_curve(struct writer *w, const struct curve *c)
 static void put_surface(struct writer *w, const struct surface *s)
 {
 	size_t n = (size_t)s->n[0] * s->n[1];
+	double tolerance = closed_within * surface_size(s);
 	const int head[] = { 128,
 		             s->n[0] - 1,
 		             s->n[1] - 1,
 		             s->order[0] - 1,
 		             s->order[1] - 1,
-		             surface_closed(s, 0, 0),
-		             surface_closed(s, 1, 0),
+		             surface_closed(s, 0, tolerance),
+		             surface_closed(s, 1, tolerance),
 		             all_weights_equal(s->points, n),
 		             s->periodic[0],
 		             s->periodic[1] };

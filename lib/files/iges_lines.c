@@ -17,6 +17,15 @@ static bool is_letter_of_section(char c)
 	return c == 'S' || c == 'G' || c == 'D' || c == 'P' || c == 'T' || c == 'C' || c == 'B';
 }
 
+/* The seven columns of a sequence number; lines may be longer than 80. */
+static bool is_number_field(const char *s)
+{
+	for (int i = 0; i < 7; i++)
+		if (s[i] != ' ' && (s[i] < '0' || s[i] > '9'))
+			return false;
+	return true;
+}
+
 /* From *at on; false at the end. Empty lines come with letter 0. */
 static bool next_line(const struct iges *g, size_t *at, struct line *l)
 {
@@ -36,7 +45,8 @@ static bool next_line(const struct iges *g, size_t *at, struct line *l)
 	while (n && (s[n - 1] == ' ' || s[n - 1] == '\r' || s[n - 1] == '\n'))
 		n--;
 	*l = (struct line){ .s = s, .n = n };
-	if (n > LETTER_COLUMN && n <= LETTER_COLUMN + 8 && is_letter_of_section(s[LETTER_COLUMN]))
+	if (n > LETTER_COLUMN && is_letter_of_section(s[LETTER_COLUMN]) &&
+	    (n <= LETTER_COLUMN + 8 || is_number_field(s + LETTER_COLUMN + 1)))
 		l->data = LETTER_COLUMN;
 	else if (n >= 8 && is_letter_of_section(s[n - 8]))
 		l->data = n - 8; /* bytes and columns differ: tabs, or letters of several bytes */
@@ -63,7 +73,7 @@ static void find_line_end(struct iges *g)
 static bool is_first_line(const struct line *l)
 {
 	bool good = l->letter == 'S' || l->letter == 'G' || l->letter == 'C' || l->letter == 'B';
-	for (size_t i = l->data + 1; good && i < l->n; i++)
+	for (size_t i = l->data + 1; good && i < l->n && i < l->data + 8; i++)
 		good = l->s[i] == ' ' || (l->s[i] >= '0' && l->s[i] <= '9');
 	return good;
 }
