@@ -35,7 +35,7 @@ enum message_way { FROM_WORKER = 1, TO_WORKER = 2, FROM_CLIENT = 4, FROM_SERVICE
 	X(CANCEL, 65, TO_WORKER, "")                                                               \
 	X(SUBMIT, 128, FROM_CLIENT, "id:i jobs:a")                                                 \
 	X(LIST, 129, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                                  \
-	X(WATCH, 130, FROM_CLIENT, "id:i jobs:a? group:s? stay:b?")                                      \
+	X(WATCH, 130, FROM_CLIENT, "id:i jobs:a? group:s? stay:b?")                                \
 	X(SUSPEND, 131, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                               \
 	X(ACTIVATE, 132, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                              \
 	X(KILL, 133, FROM_CLIENT, "id:i jobs:a? group:s? all:b? by:s?")                            \
