@@ -47,20 +47,10 @@ static const struct {
 };
 enum { N_FILES = sizeof files / sizeof files[0] };
 
-static const char *data_folder(void)
-{
-	const char *folder = getenv("BATTEN_DATA");
-	if (!folder) {
-		print_message("skipped: BATTEN_DATA names no folder of reference data\n");
-		skip();
-	}
-	return folder;
-}
-
 static void read_model(struct model *m, const char *file)
 {
 	struct report_store store;
-	char *path = text_print("%s/%s", data_folder(), file);
+	char *path = text_print("%s/%s", getenv("BATTEN_DATA"), file);
 	report_store_init(&store);
 	enum status st = model_read(m, path, NULL, &store.report);
 	if (st != ST_OK)
@@ -71,7 +61,7 @@ static void read_model(struct model *m, const char *file)
 static json_t *read_reference(const char *file)
 {
 	json_error_t error;
-	char *path = text_print("%s/reference/%s.json", data_folder(), file);
+	char *path = text_print("%s/reference/%s.json", getenv("BATTEN_DATA"), file);
 	json_t *o = json_load_file(path, 0, &error);
 	if (!o)
 		fail_msg("%s: %s", path, error.text);
@@ -305,7 +295,6 @@ static void check_header(const char *file, const struct model *m, const json_t *
 static void files_agree_with_reference(void **state)
 {
 	(void)state;
-	data_folder();
 	for (int f = 0; f < N_FILES; f++) {
 		struct model m;
 		size_t i;
@@ -346,7 +335,6 @@ static void rewritten_files_hold_the_same(void **state)
 		{ "goteborg.iges", "goteborg_sparse.igs" },
 	};
 	(void)state;
-	data_folder();
 	for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
 		struct model a, b;
 		read_model(&a, pairs[i][0]);
@@ -370,7 +358,6 @@ static void power_basis_agrees_with_splines(void **state)
 {
 	struct model a, b;
 	(void)state;
-	data_folder();
 	read_model(&a, "surf114_bench.igs");
 	read_model(&b, "surf128_bench.igs");
 	assert_int_equal(a.n, 4);
@@ -388,7 +375,6 @@ static void known_areas(void **state)
 	struct model m;
 	double error, area = 0;
 	(void)state;
-	data_folder();
 	read_model(&m, "sphere_rhino.igs");
 	area = surface_area(&m.entities[0].geometry, 1e-11, &error);
 	assert_near("area", "sphere_rhino.igs", 25, 0, area, 4 * M_PI, 1e-9);
@@ -410,5 +396,9 @@ int main(void)
 		cmocka_unit_test(power_basis_agrees_with_splines),
 		cmocka_unit_test(known_areas),
 	};
+	if (!getenv("BATTEN_DATA")) {
+		puts("1..0 # SKIP BATTEN_DATA names no folder of reference data");
+		return 0;
+	}
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
