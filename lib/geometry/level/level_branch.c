@@ -145,7 +145,7 @@ static enum status spans_make(const struct joint *j, const size_t *entries, size
 		spans_add_strand(j, entries[i], i > 0 && l->cut, spans);
 		const struct link *out = &j->links[entries[i] ^ 1];
 		bool more = i + 1 < n || closed;
-		if (more && out->kind == LINK_STRAND && !out->cut)
+		if (more && out->kind == LINK_STRAND && (out->on_edge || !out->cut))
 			spans_add_bridge(j, entries[i] ^ 1, out->other, out->on_edge, spans);
 	}
 	return spans->failed ? ST_RESOURCE : ST_OK;
