@@ -115,15 +115,6 @@ INLINE vd dotd(const vd *a, const vd *b)
 	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-INLINE vd sqrt_lanes(vd x)
-{
-	vd r;
-
-	for (int i = 0; i < HALF; i++)
-		r[i] = __builtin_sqrt(x[i]);
-	return r;
-}
-
 /* The part of a half packet's rays that finishing needs, by value. */
 struct finish_rays {
 	vd d[3], n1[3], n2[3], k1, k2, kd;
@@ -194,15 +185,16 @@ INLINE vl finish_newton(const struct ray_patch *patch, const struct finish_rays 
 INLINE void finish_keep(struct packet *p, int h, vl ok, vl leaf, vd t, vd a, vd b,
                         const struct finish_point *x)
 {
-	vd length = sqrt_lanes(dotd(x->pa, x->pa) * dotd(x->pb, x->pb)) + 1e-12;
+	vd area = dotd(x->pa, x->pa) * dotd(x->pb, x->pb) + 1e-24;
 
 	p->fard[h] = pickd(ok, t, p->fard[h]);
+	p->area[h] = pickd(ok, area, p->area[h]);
 	p->leaf[h] = (ok & leaf) | (~ok & p->leaf[h]);
 	p->a[0][h] = pickd(ok, a, p->a[0][h]);
 	p->a[1][h] = pickd(ok, b, p->a[1][h]);
 	for (int e = 0; e < 3; e++) {
 		int f = (e + 1) % 3, g = (e + 2) % 3;
-		vd n = (x->pa[f] * x->pb[g] - x->pa[g] * x->pb[f]) / length;
+		vd n = x->pa[f] * x->pb[g] - x->pa[g] * x->pb[f];
 
 		p->point[e][h] = pickd(ok, x->p[e], p->point[e][h]);
 		p->normal[e][h] = pickd(ok, n, p->normal[e][h]);
@@ -224,11 +216,8 @@ static __attribute__((noinline)) vi finish(struct packet *p, uint32_t number, vf
 	union {
 		vi v;
 		hi half[2];
-	} uf = { found }, out = { found };
-	union {
-		vf v;
-		hf half[2];
-	} far = { p->far };
+	} uf = { found };
+	vl out[2] = { { 0 }, { 0 } };
 
 	for (int h = 0; h < 2; h++) {
 		vl live = __builtin_convertvector(uf.half[h], vl);
@@ -260,14 +249,14 @@ static __attribute__((noinline)) vi finish(struct packet *p, uint32_t number, vf
 		ok &= along > p->neard[h];
 		ok &= (along < p->fard[h] - SAME) |
 		      ((along <= p->fard[h] + SAME) & (leaf < p->leaf[h]));
-		out.half[h] = __builtin_convertvector(ok, hi);
+		out[h] = ok;
 		if (!p->nearest || !any_half(ok))
 			continue;
 		finish_keep(p, h, ok, leaf, along, a, b, &x);
-		far.half[h] = __builtin_convertvector(p->fard[h], hf) + 2 * RAY_NOISE;
 	}
-	p->far = far.v;
-	return out.v;
+	if (p->nearest)
+		p->far = to_float(p->fard) + 2 * RAY_NOISE;
+	return to_mask(out);
 }
 
 #endif

@@ -78,6 +78,26 @@ INLINE vd pickd(vl m, vd a, vd b)
 	return (vd)((m & (vl)a) | (~m & (vl)b));
 }
 
+/* Two halves as one, without a way round through memory. */
+#if LANES == 16
+#define JOIN(a, b)                                                                                 \
+	__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#elif LANES == 8
+#define JOIN(a, b) __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7)
+#else
+#define JOIN(a, b) __builtin_shufflevector(a, b, 0, 1, 2, 3)
+#endif
+
+INLINE vf to_float(const vd x[2])
+{
+	return JOIN(__builtin_convertvector(x[0], hf), __builtin_convertvector(x[1], hf));
+}
+
+INLINE vi to_mask(const vl x[2])
+{
+	return JOIN(__builtin_convertvector(x[0], hi), __builtin_convertvector(x[1], hi));
+}
+
 INLINE vf size(vf a)
 {
 	return (vf)((vi)a & 0x7fffffff);

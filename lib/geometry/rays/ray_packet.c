@@ -126,16 +126,6 @@ static void packet_gather(const struct ray_scene *s, const struct ray *rays, con
 	}
 }
 
-static vf to_float(const vd x[2])
-{
-	union {
-		hf half[2];
-		vf v;
-	} u = { { __builtin_convertvector(x[0], hf), __builtin_convertvector(x[1], hf) } };
-
-	return u.v;
-}
-
 /*
  * The two planes of each ray. Source: Duff et al., Building an Orthonormal Basis, Revisited
  * (JCGT 2017).
@@ -232,9 +222,9 @@ static void packet_result(const struct packet *p, const struct packet_start *a, 
 	out->u = (1 - u) * patch->u[0] + u * patch->u[1];
 	out->v = (1 - v) * patch->v[0] + v * patch->v[1];
 	out->point = vec3_along(cut->center, cut->scale, point);
-	double length = vec3_length(normal);
+	double length = vec3_length(normal), area = at_lane(p->area, lane);
 	struct vec3 limit;
-	if (!(length > 0.05) &&
+	if (!(length * length > 0.0025 * area) &&
 	    surface_normal(p->scene->surfaces[out->surface], out->u, out->v, &limit))
 		out->normal = limit;
 	else

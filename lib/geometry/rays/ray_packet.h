@@ -19,7 +19,8 @@ struct packet {
 	vd neard[2], fard[2];         /* far: comes nearer with each hit */
 	vl leaf[2];                   /* -1: none */
 	vd a[2][2];                   /* parameters in the patch [0, 1]: u, v */
-	vd point[3][2], normal[3][2]; /* normal: length is sin of the angle of Su and Sv */
+	vd point[3][2], normal[3][2]; /* normal: Su x Sv, not of unit length */
+	vd area[2];                   /* |Su|^2 |Sv|^2, a little more */
 };
 
 #endif
