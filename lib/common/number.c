@@ -187,7 +187,7 @@ int number_write(char out[NUMBER_SIZE], double x)
 		return sprintf(out, "nan");
 	if (isinf(x))
 		return sprintf(out, x < 0 ? "-inf" : "inf");
-	if (x == (double)(int64_t)x && fabs(x) < 1e15 && !(x == 0 && signbit(x)))
+	if (fabs(x) < 1e15 && x == (double)(int64_t)x && !(x == 0 && signbit(x)))
 		return sprintf(out, "%" PRId64, (int64_t)x);
 	int n = 0;
 	for (int digits = 15; digits <= 17; digits++) {
