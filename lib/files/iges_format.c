@@ -346,6 +346,9 @@ void iges_format(const struct model *m, struct text *out)
 enum status iges_write(const struct model *m, const char *path, const struct report *r)
 {
 	struct text t = { 0 };
+	if (!m->unit)
+		report_warning(r, "the geometry has no unit; '%s' says millimetres, IGES wants one",
+		               path);
 	iges_format(m, &t);
 	enum status st = t.failed ? report_error(r, ST_RESOURCE,
 	                                         "cannot write '%s': no memory, or more lines than "

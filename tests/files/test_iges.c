@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -648,6 +649,30 @@ static void only_what_is_meant_is_written(void **state)
 	text_finish(&t);
 }
 
+static void a_missing_unit_is_told(void **state)
+{
+	static const struct made_entity entities[MADE_MAX] = { { 128, 0, SQUARE } };
+	const struct made_file f = { 0 };
+	char folder[] = "/tmp/batten-test-XXXXXX", path[64];
+	struct model m;
+	struct report_store store;
+	(void)state;
+	assert_non_null(mkdtemp(folder));
+	snprintf(path, sizeof path, "%s/x.igs", folder);
+	assert_int_equal(read_made(&m, &f, entities, &store), ST_OK);
+	assert_int_equal(iges_write(&m, path, &store.report), ST_OK);
+	assert_int_equal(store.n_warnings, 0);
+	assert_int_equal(model_set_text(&m.unit, NULL), ST_OK);
+	assert_int_equal(iges_write(&m, path, &store.report), ST_OK);
+	assert_int_equal(store.n_warnings, 1);
+	model_finish(&m);
+	assert_int_equal(model_read(&m, path, NULL, &store.report), ST_OK);
+	assert_string_equal(m.unit, "mm");
+	model_finish(&m);
+	unlink(path);
+	rmdir(folder);
+}
+
 static void stops_when_told(void **state)
 {
 	const struct made_file f = { 0 };
@@ -765,6 +790,7 @@ int main(void)
 		cmocka_unit_test(parts_are_not_counted),
 		cmocka_unit_test(written_is_read_again),
 		cmocka_unit_test(only_what_is_meant_is_written),
+		cmocka_unit_test(a_missing_unit_is_told),
 		cmocka_unit_test(stops_when_told),
 		cmocka_unit_test(entities_that_multiply_are_stopped),
 		cmocka_unit_test(damaged_files_are_survived),
