@@ -70,6 +70,16 @@ static void net_clean(struct bezier_net *net)
 	}
 }
 
+static void reach_find(struct level_surface *s)
+{
+	const double *p = s->net.points;
+	size_t n = bezier_patch_size(&s->net) / 4 * s->net.spans[0] * s->net.spans[1];
+	for (size_t i = 0; i < n; i++, p += 4) {
+		s->reach = larger(s->reach, sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]));
+		s->weight = larger(s->weight, p[3]);
+	}
+}
+
 static double *binomial_make(int n)
 {
 	double *b = malloc(sizeof *b * (n + 1) * (n + 2) / 2);
@@ -92,6 +102,7 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 	if (st != ST_OK)
 		goto fail;
 	net_clean(&s->net);
+	reach_find(s);
 	s->kind = field->kind;
 	frame_make(field->direction, s->frame);
 	int factors = s->net.rational ? 3 : 2, highest = 0;

@@ -88,15 +88,13 @@ static bool silhouette_make(struct tracer *t, double *out)
 
 static bool plane_make(struct tracer *t, double *out)
 {
+	const struct level_surface *s = surface_of(t);
 	const double *n = t->level->direction;
-	double scale = 0;
 	for (size_t i = 0; i < t->n_field; i++) {
 		const double *p = t->points + 4 * i;
-		double x[4] = { n[0] * p[0], n[1] * p[1], n[2] * p[2], n[3] * p[3] };
-		out[i] = x[0] + x[1] + x[2] + x[3];
-		scale = larger(scale, fabs(x[0]) + fabs(x[1]) + fabs(x[2]) + fabs(x[3]));
+		out[i] = n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + n[3] * p[3];
 	}
-	t->scale = scale;
+	t->scale = s->reach + fabs(n[3]) * s->weight;
 	return true;
 }
 

@@ -269,7 +269,7 @@ enum status level_patch(const struct level *l, size_t patch, struct text *out)
 		level_search(&t, c);
 	if (!t.failed)
 		st = patch_write(&t, out);
-	for (int i = 0; i < N_SCRATCH; i++)
+	for (int i = 0; i < N_SCRATCH && t.scratch[i]; i++) /* filled in order */
 		room_free(t.scratch[i], room);
 	room_free(t.field, room);
 	room_free(t.product, room);

@@ -47,9 +47,10 @@ struct level_surface {
 	int degree[2];      /* of the normals' components */
 	double *normals;    /* owned; a patch (degree + 1)^2 x 4, in `frame`, the fourth 0 */
 	unsigned char
-	        *edges[2]; /* owned; edges[0]: (spans[0] + 1) x spans[1], lines u = breaks[0][i];
+	        *edges[2];    /* owned; edges[0]: (spans[0] + 1) x spans[1], lines u = breaks[0][i];
 	                            edges[1]: spans[0] x (spans[1] + 1), lines v = breaks[1][j] */
-	double *binomial;  /* owned; triangle of rows, see binomial_row */
+	double reach, weight; /* largest |w S| and w of the net's points */
+	double *binomial;     /* owned; triangle of rows, see binomial_row */
 };
 
 struct level {
