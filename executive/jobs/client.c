@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "json.h"
+#include "lock.h"
 #include "path.h"
 #include "text.h"
 
@@ -203,11 +204,10 @@ static enum status say_hello(struct client *c, const struct report *r)
 }
 
 /* ST_CANCELLED: nobody listens, or who did was just ending. */
-static enum status connect_once(struct client **out, const struct project *p,
-                                const struct report *r)
+static enum status connect_at(struct client **out, const char *path, const struct report *r)
 {
 	int fd = -1;
-	enum status st = open_socket(&fd, p->socket, r);
+	enum status st = open_socket(&fd, path, r);
 	if (st != ST_OK)
 		return st;
 	struct client *c = calloc(1, sizeof *c);
@@ -222,6 +222,19 @@ static enum status connect_once(struct client **out, const struct project *p,
 		*out = c;
 	else
 		client_close(c);
+	return st;
+}
+
+/* Where it should listen, else where it says it does. */
+static enum status connect_once(struct client **out, const struct project *p,
+                                const struct report *r)
+{
+	enum status st = connect_at(out, p->socket, r);
+	char *other = st == ST_CANCELLED ? lock_socket(p) : NULL;
+
+	if (other && strcmp(other, p->socket))
+		st = connect_at(out, other, r);
+	free(other);
 	return st;
 }
 

@@ -25,15 +25,37 @@ static int lock_byte(int fd, int how, short type, off_t at)
 	return n;
 }
 
+/* The lock's text: "host NAME, process NUMBER", then the socket's path, a line each. */
+char *lock_socket(const struct project *p)
+{
+	char *path = path_join(p->hidden, "lock"), text[1024] = "", *found = NULL;
+	int fd = path ? open(path, O_RDONLY | O_CLOEXEC) : -1;
+	ssize_t n = fd < 0 ? -1 : read(fd, text, sizeof text - 1);
+	if (fd >= 0)
+		close(fd);
+	free(path);
+	char *line = n > 0 ? strchr(text, '\n') : NULL;
+	if (line && line[1] == '/') {
+		line++;
+		line[strcspn(line, "\n")] = '\0';
+		found = strdup(line);
+	}
+	return found;
+}
+
 static bool somebody_listens(const struct project *p)
 {
 	struct sockaddr_un address = { .sun_family = AF_UNIX };
 	int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-	if (fd < 0 || strlen(p->socket) >= sizeof address.sun_path)
-		return false;
-	strcpy(address.sun_path, p->socket);
-	bool there = !connect(fd, (struct sockaddr *)&address, sizeof address);
-	close(fd);
+	char *path = lock_socket(p);
+	bool there = false;
+	if (fd >= 0 && path && strlen(path) < sizeof address.sun_path) {
+		strcpy(address.sun_path, path);
+		there = !connect(fd, (struct sockaddr *)&address, sizeof address);
+	}
+	if (fd >= 0)
+		close(fd);
+	free(path);
 	return there;
 }
 
@@ -59,7 +81,7 @@ static enum status lock_held(const struct project *p, int fd, const struct repor
 
 enum status lock_take(const struct project *p, bool wait, int *fd, const struct report *r)
 {
-	char *path = path_join(p->hidden, "lock"), host[256] = "", who[300];
+	char *path = path_join(p->hidden, "lock"), host[256] = "", who[512];
 	enum status st = ST_OK;
 	*fd = path ? open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600) : -1;
 	if (*fd < 0) {
@@ -70,7 +92,8 @@ enum status lock_take(const struct project *p, bool wait, int *fd, const struct 
 	} else {
 		lock_listening(*fd, false);
 		gethostname(host, sizeof host - 1);
-		int n = snprintf(who, sizeof who, "host %s, process %ld\n", host, (long)getpid());
+		int n = snprintf(who, sizeof who, "host %s, process %ld\n%s\n", host,
+		                 (long)getpid(), p->socket);
 		if (ftruncate(*fd, 0) || pwrite(*fd, who, (size_t)n, 0) != n)
 			st = report_error(r, ST_RESOURCE, "cannot write '%s': %s", path,
 			                  strerror(errno));

@@ -16,4 +16,8 @@
 enum status lock_take(const struct project *p, bool wait, int *fd, const struct report *r);
 void lock_listening(int fd, bool listening);
 
+/* Where the service that took the lock last listens: another environment may have given it another
+ * place than p->socket. Fresh; NULL: not known. */
+char *lock_socket(const struct project *p);
+
 #endif

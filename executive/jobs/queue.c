@@ -269,6 +269,7 @@ enum status queue_event(struct queue *q, int64_t id, enum job_event event, const
 		return report_error(r, ST_INPUT,
 		                    "there is no job %lld; 'batten jobs --all' lists them",
 		                    (long long)id);
+	q->retry_at = 0; /* somebody waits: a ledger that failed is tried at once */
 	if (job_step(job, event, by) != ST_OK)
 		return report_error(r, ST_INPUT, "job %lld is %s and cannot be %s", (long long)id,
 		                    job_state_table[job->stats.state].word, job_event_asked[event]);

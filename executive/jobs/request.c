@@ -427,7 +427,7 @@ void request_check(struct request *q)
 	if (fault && row->event != N_JOB_EVENTS) {
 		struct report r = request_report(q);
 		report_error(&r, ST_RESOURCE,
-		             "it was done, but the ledger does not take it: %s; make room, the "
+		             "it is done or under way, but not kept: %s; make room, the "
 		             "service tries again each second",
 		             fault);
 	} else if (q->behind || !request_met(q, row)) {

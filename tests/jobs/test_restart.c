@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/pidfd.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -129,6 +131,29 @@ static void many_clients_start_one_service(void **state)
 		assert_int_equal(status, 0);
 	}
 	place_connect(p);
+}
+
+/* A client with another environment would look for the socket elsewhere. */
+static void a_service_is_found_wherever_it_listens(void **state)
+{
+	struct place *p = *state;
+	struct project other;
+	struct client *c = NULL;
+	struct ucred peer;
+	socklen_t size = sizeof peer;
+	char *elsewhere = path_join(p->folder, "elsewhere");
+	assert_int_equal(mkdir(elsewhere, 0700), 0);
+	setenv("XDG_RUNTIME_DIR", elsewhere, 1);
+	assert_int_equal(project_find(&other, p->folder, NULL), ST_OK);
+	assert_string_not_equal(other.socket, p->project.socket);
+	assert_int_equal(project_make(&other, NULL), ST_OK);
+	assert_int_equal(client_connect(&c, &other, true, NULL), ST_OK);
+	assert_int_equal(getsockopt(client_descriptor(c), SOL_SOCKET, SO_PEERCRED, &peer, &size),
+	                 0);
+	assert_int_equal(peer.pid, p->service);
+	client_close(c);
+	project_finish(&other);
+	free(elsewhere);
 }
 
 /* As after a crash: the ledger says it runs, its worker has not died yet. */
@@ -256,6 +281,7 @@ int main(void)
 		T(shutdown_stops_at_a_unit_and_the_next_start_goes_on),
 		T(a_second_service_is_refused),
 		T(many_clients_start_one_service),
+		T(a_service_is_found_wherever_it_listens),
 		T(a_worker_left_behind_is_ended_before_its_job_goes_on),
 		T(crash_after_crash_every_job_is_done),
 		IDLE(an_idle_service_ends_and_the_next_one_knows_all),
