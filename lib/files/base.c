@@ -14,6 +14,7 @@ struct draft {
 	unsigned seen;       /* bits of fields[] */
 	int order[2], n[2];
 	int dimension;
+	bool loop; /* a curve of a trimming loop: nothing but its spline is told */
 	const char *begin;
 };
 
@@ -169,6 +170,25 @@ static void field_values(struct scanner *p, struct draft *d)
 	scan_numbers(p, l->values, (int64_t)n * l->dimension, "coordinate");
 }
 
+static void read_curve(struct scanner *p, struct trim_loop *out);
+
+/* A loop: its sense and its curves. */
+static void field_loop(struct scanner *p, struct draft *d)
+{
+	struct trim_loop l = { .outer = scan_word(p, "outer") };
+	if (!l.outer && !scan_word(p, "inner"))
+		scan_fail(p, "outer or inner");
+	while (p->st == ST_OK && !(l.n && scan_word(p, "end"))) {
+		if (scan_word(p, "curve"))
+			read_curve(p, &l);
+		else
+			scan_fail(p, l.n ? "'curve' or 'end'" : "'curve', the first of the loop");
+	}
+	if (p->st == ST_OK)
+		scan_keep(p, trim_add(&d->e.trim, &l));
+	trim_loop_finish(&l);
+}
+
 #define BIT(kind) (1u << (kind))
 enum {
 	IN_CURVES = BIT(ENTITY_CURVE) | BIT(ENTITY_CURVE_ON_SURFACE),
@@ -196,6 +216,7 @@ enum field {
 	F_UKNOTS,
 	F_VKNOTS,
 	F_CONTPTS,
+	F_LOOP,
 	F_DIMENSION,
 	F_VALUES,
 	N_FIELDS,
@@ -228,6 +249,7 @@ static const struct {
 	[F_UKNOTS] = { "uknots", field_uknots, IN_SURFACE, F_NCONTPTS, false, false, true },
 	[F_VKNOTS] = { "vknots", field_vknots, IN_SURFACE, F_NCONTPTS, false, false, true },
 	[F_CONTPTS] = { "contpts", field_contpts, IN_SPLINES, F_NCONTPTS, false, true, true },
+	[F_LOOP] = { "loop", field_loop, IN_SURFACE, N_FIELDS, true, false, false },
 	[F_DIMENSION] = { "dimension", field_dimension, IN_POINTS, N_FIELDS, false, false, true },
 	[F_VALUES] = { "values", field_values, IN_POINTS, F_DIMENSION, false, false, true },
 };
@@ -261,6 +283,8 @@ static void read_field(struct scanner *p, struct draft *d)
 		scan_fail(p, "a field of a %s, 'attribute' or 'end'", entity_kind_name(d->e.kind));
 	else if (!(fields[f].in & BIT(d->e.kind)))
 		scan_fail(p, "a field that a %s has", entity_kind_name(d->e.kind));
+	else if (d->loop && !fields[f].spline)
+		scan_fail(p, "a field that a curve of a loop has");
 	else if ((d->seen & BIT(f)) && !fields[f].repeats)
 		scan_fail(p, "the field '%s' once", fields[f].word);
 	else if (fields[f].after != N_FIELDS && !(d->seen & BIT(fields[f].after)))
@@ -290,6 +314,32 @@ static enum status check_shape(struct scanner *p, struct draft *d)
 	return report_error(p->r, st, "%s:%d:%d: %s", p->name, line, column, store.error);
 }
 
+/* All up to `end`. */
+static void read_fields(struct scanner *p, struct draft *d)
+{
+	d->curve = &d->e.curve;
+	while (p->st == ST_OK && !scan_word(p, "end")) {
+		if (scan_word(p, "space"))
+			begin_space(p, d);
+		else
+			read_field(p, d);
+	}
+	check_complete(p, d);
+	if (p->st == ST_OK)
+		p->st = check_shape(p, d);
+}
+
+/* A curve of a loop. */
+static void read_curve(struct scanner *p, struct trim_loop *out)
+{
+	struct draft d = { .begin = p->token, .loop = true };
+	entity_init(&d.e, ENTITY_CURVE);
+	read_fields(p, &d);
+	if (p->st == ST_OK)
+		scan_keep(p, trim_loop_add(out, &d.e.curve));
+	entity_finish(&d.e);
+}
+
 static void read_entity(struct scanner *p)
 {
 	struct draft d = { .begin = p->token };
@@ -301,16 +351,9 @@ static void read_entity(struct scanner *p)
 		return;
 	}
 	entity_init(&d.e, kind);
-	d.curve = &d.e.curve;
-	while (p->st == ST_OK && !scan_word(p, "end")) {
-		if (scan_word(p, "space"))
-			begin_space(p, &d);
-		else
-			read_field(p, &d);
-	}
-	check_complete(p, &d);
-	if (p->st == ST_OK)
-		p->st = check_shape(p, &d);
+	read_fields(p, &d);
+	if (d.e.trims < d.e.trim.n)
+		d.e.trims = d.e.trim.n;
 	if (p->st == ST_OK)
 		scan_keep(p, model_add(p->m, &d.e));
 	entity_finish(&d.e);

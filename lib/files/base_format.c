@@ -78,6 +78,20 @@ static void add_surface(struct text *t, const struct surface *s)
 	add_numbers(t, "contpts", s->points, (size_t)4 * s->n[0] * s->n[1], 4);
 }
 
+static void add_trim(struct text *t, const struct trim *trim)
+{
+	for (int i = 0; i < trim->n; i++) {
+		const struct trim_loop *l = &trim->loops[i];
+		text_addf(t, "\tloop %s\n", l->outer ? "outer" : "inner");
+		for (int j = 0; j < l->n; j++) {
+			text_add(t, "\tcurve\n");
+			add_curve(t, &l->curves[j]);
+			text_add(t, "\tend\n");
+		}
+		text_add(t, "\tend\n");
+	}
+}
+
 static void add_points(struct text *t, const struct point_list *l)
 {
 	text_addf(t, "\tdimension %d\n\tvalues %d", l->dimension, l->n);
@@ -105,12 +119,14 @@ static void add_entity(struct text *t, const struct entity *e, bool used, int su
 	add_attributes(t, "\t", e->attributes, e->n_attributes);
 	if (e->kind == ENTITY_CURVE_ON_SURFACE)
 		text_addf(t, "\tsurface %d\n", surface);
-	if (e->kind == ENTITY_SURFACE)
+	if (e->kind == ENTITY_SURFACE) {
 		add_surface(t, &e->geometry);
-	else if (e->kind == ENTITY_POINTS)
+		add_trim(t, &e->trim);
+	} else if (e->kind == ENTITY_POINTS) {
 		add_points(t, &e->points);
-	else
+	} else {
 		add_curve(t, &e->curve);
+	}
 	if (e->space.order) {
 		text_add(t, "\tspace\n");
 		add_curve(t, &e->space);

@@ -78,6 +78,7 @@ void entity_finish(struct entity *e)
 	curve_finish(&e->curve);
 	curve_finish(&e->space);
 	surface_finish(&e->geometry);
+	trim_finish(&e->trim);
 	free(e->points.values);
 	attributes_finish(e->attributes, e->n_attributes);
 	entity_init(e, e->kind);

@@ -10,6 +10,7 @@
 #include "curve.h"
 #include "report.h"
 #include "surface.h"
+#include "trim.h"
 
 enum entity_kind {
 	ENTITY_CURVE,
@@ -36,7 +37,7 @@ struct entity {
 	char *name;      /* owned; label of the file, or NULL */
 	int de;          /* IGES Directory Entry number, 0 if none */
 	int source_type; /* IGES entity type it was made from, 0 if none */
-	int trims;       /* trimming loops that the file gives it (not read yet: counted) */
+	int trims;       /* trimming loops that the file gives it, read or not */
 	int *faces;      /* owned; Directory Entry numbers of the trimmed faces that lie on it */
 	int n_faces;
 	bool has_color;
@@ -45,6 +46,7 @@ struct entity {
 	struct curve curve; /* ENTITY_CURVE; ENTITY_CURVE_ON_SURFACE: in u, v */
 	struct curve space; /* ENTITY_CURVE_ON_SURFACE: the same curve in space; order 0: none */
 	struct surface geometry;      /* ENTITY_SURFACE */
+	struct trim trim;             /* ENTITY_SURFACE: what is left of it; zeroed: all */
 	struct point_list points;     /* ENTITY_POINTS */
 	struct attribute *attributes; /* owned; what is known of it: angle, closed, length, ... */
 	int n_attributes;

@@ -22,10 +22,13 @@ struct trim {
 };
 
 void trim_finish(struct trim *t); /* a zeroed one is fine */
+void trim_loop_finish(struct trim_loop *loop);
 enum status trim_copy(struct trim *out, const struct trim *t);
 
-/* Append a loop (moved in). Errors: ST_RESOURCE. */
+/* Append a loop to a trim, a curve to a loop (moved in: empty afterwards, also on failure). A zeroed
+ * loop may begin. Errors: ST_RESOURCE. */
 enum status trim_add(struct trim *t, struct trim_loop *loop);
+enum status trim_loop_add(struct trim_loop *loop, struct curve *c);
 
 /*
  * Check and mend: curves put in order and direction, gaps up to `tolerance` (in space, file units)

@@ -67,6 +67,20 @@ static void fill_surface(struct surface *s, const int order[2], const int n[2], 
 	assert_int_equal(surface_check(s, "surface", NULL), ST_OK);
 }
 
+/* An outer loop of three curves, an inner one of one. */
+static void fill_trim(struct trim *t, uint64_t *seed)
+{
+	for (int i = 0; i < 2; i++) {
+		struct trim_loop l = { .outer = i == 0 };
+		for (int j = 0; j < (i ? 1 : 3); j++) {
+			struct curve c;
+			fill_curve(&c, 2 + j, 5 + i, seed);
+			assert_int_equal(trim_loop_add(&l, &c), ST_OK);
+		}
+		assert_int_equal(trim_add(t, &l), ST_OK);
+	}
+}
+
 static void make_model(struct model *m, uint64_t seed)
 {
 	const int orders[2] = { 2 + (int)(seed % 5), 26 }, counts[2] = { 9, 27 };
@@ -84,6 +98,8 @@ static void make_model(struct model *m, uint64_t seed)
 	e.de = 15;
 	e.source_type = 128;
 	e.trims = 2;
+	if (seed % 2)
+		fill_trim(&e.trim, &seed);
 	e.has_color = true;
 	e.color[1] = 0.1;
 	assert_int_equal(entity_add_face(&e, 21), ST_OK);
@@ -143,6 +159,17 @@ static void assert_same_surface(const struct surface *a, const struct surface *b
 	assert_bits(a->points, b->points, (size_t)4 * a->n[0] * a->n[1]);
 }
 
+static void assert_same_trim(const struct trim *a, const struct trim *b)
+{
+	assert_int_equal(a->n, b->n);
+	for (int i = 0; i < a->n; i++) {
+		assert_int_equal(a->loops[i].outer, b->loops[i].outer);
+		assert_int_equal(a->loops[i].n, b->loops[i].n);
+		for (int j = 0; j < a->loops[i].n; j++)
+			assert_same_curve(&a->loops[i].curves[j], &b->loops[i].curves[j]);
+	}
+}
+
 static void assert_same_entity(const struct entity *a, const struct entity *b)
 {
 	assert_int_equal(a->kind, b->kind);
@@ -172,6 +199,7 @@ static void assert_same_entity(const struct entity *a, const struct entity *b)
 		assert_same_curve(&a->curve, &b->curve);
 	if (a->space.order)
 		assert_same_curve(&a->space, &b->space);
+	assert_same_trim(&a->trim, &b->trim);
 	assert_int_equal(a->points.n, b->points.n);
 	assert_int_equal(a->points.dimension, b->points.dimension);
 	if (a->points.n)
@@ -300,6 +328,18 @@ static void texts_and_their_faults(void **state)
 		  "'space' stands once" },
 		{ "batten base 1\ntype curve_on_surface " LINE "space end", "the field 'order'" },
 		{ "batten base 1\ntype curve " LINE "space " LINE "end", "'space' stands once" },
+		{ "batten base 1\ntype surface loop outer curve " LINE "end end end",
+		  "expected the field 'order' of this surface" },
+		{ "batten base 1\ntype surface loop curve", "expected outer or inner" },
+		{ "batten base 1\ntype surface loop inner end", "the first of the loop" },
+		{ "batten base 1\ntype surface loop inner curve " LINE "end knots",
+		  "expected 'curve' or 'end'" },
+		{ "batten base 1\ntype surface loop inner curve name \"a\" " LINE "end",
+		  "a field that a curve of a loop has" },
+		{ "batten base 1\ntype surface loop inner curve " LINE "space",
+		  "'space' stands once" },
+		{ "batten base 1\ntype surface loop inner curve end", "the field 'order'" },
+		{ "batten base 1\ntype curve loop inner", "expected a field that a curve has" },
 	};
 	(void)state;
 	for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
