@@ -634,6 +634,30 @@ static void test_touch(void **state)
 	}
 }
 
+/* A surface that is only a line has no normal, and nothing is known of it. */
+static void test_no_area(void **state)
+{
+	(void)state;
+	for (int rational = 0; rational < 2; rational++) {
+		struct surface s = shape_surface((const int[2]){ 4, 4 }, (const int[2]){ 8, 8 },
+		                                 rational, KNOTS_CLAMPED, 3);
+		struct level_result x;
+		for (int i = 0; i < 8; i++)
+			for (int j = 0; j < 8; j++) {
+				double w, t;
+				t = surface_get_point(&s, i, j, &w).z;
+				surface_set_point(&s, i, j, vec3(0.37 * t, 1.21 * t, 0.777 * t), w);
+			}
+		assert_int_equal(
+		        shape_trace(&s, LEVEL_ISOPHOTE, vec3(0, 0, 1), 0.5, 1e-5, &x, NULL), ST_OK);
+		assert_int_equal(x.n_branches, 0);
+		assert_int_equal(x.n_undecided, 1);
+		assert_true(x.undecided[0].flat);
+		level_result_finish(&x);
+		surface_finish(&s);
+	}
+}
+
 /* Where curves cross, the crossing is told and the curves end there. */
 static void test_crossing(void **state)
 {
@@ -766,9 +790,9 @@ int main(void)
 		cmocka_unit_test(test_known),         cmocka_unit_test(test_forms),
 		cmocka_unit_test(test_crease),        cmocka_unit_test(test_files),
 		cmocka_unit_test(test_fading_crease), cmocka_unit_test(test_grid),
-		cmocka_unit_test(test_touch),         cmocka_unit_test(test_crossing),
-		cmocka_unit_test(test_high_order),    cmocka_unit_test(test_wrong),
-		cmocka_unit_test(test_blocks),
+		cmocka_unit_test(test_touch),         cmocka_unit_test(test_no_area),
+		cmocka_unit_test(test_crossing),      cmocka_unit_test(test_high_order),
+		cmocka_unit_test(test_wrong),         cmocka_unit_test(test_blocks),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

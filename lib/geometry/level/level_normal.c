@@ -25,6 +25,7 @@ struct maker {
 	size_t room;   /* doubles a form */
 	double *x;     /* FORMS forms of the surface and its derivatives, scaled */
 	double *n[3];  /* the normal */
+	double terms;  /* bound of the terms that the normal is a sum of */
 	double *cross; /* U x V, U x X or X x V, one component */
 };
 
@@ -63,6 +64,17 @@ static void load(struct maker *k, int patch)
 			for (int j = 0; j < q; j++)
 				dv[i * q + j] = hv * (x[i * (q + 1) + j + 1] - x[i * (q + 1) + j]);
 	}
+	double most[FORMS / 4], weight[FORMS / 4];
+	for (int g = 0; g < FORMS / 4; g++) {
+		most[g] = weight[g] = 0;
+		for (int d = 0; d < 4; d++)
+			for (size_t i = 0; i < (size_t)(p + 1) * (q + 1); i++) {
+				double *m = d < 3 ? &most[g] : &weight[g];
+				*m = larger(*m, fabs(k->x[k->room * (4 * g + d) + i]));
+			}
+	}
+	k->terms = weight[0] * most[1] * most[2] + weight[2] * most[1] * most[0] +
+	           weight[1] * most[0] * most[2];
 	for (int f = 0; f < FORMS; f++)
 		form_scale(k->x + k->room * f, degree_of(s, f, 0), degree_of(s, f, 1), s->binomial,
 		           false);
@@ -118,6 +130,18 @@ static void take_out_factors(const struct maker *k)
 	}
 }
 
+/* A patch without area has no normal, only rounding. */
+static void take_out_noise(const struct maker *k, size_t count)
+{
+	double most = 0;
+	for (int i = 0; i < 3; i++)
+		for (size_t c = 0; c < count; c++)
+			most = larger(most, fabs(k->n[i][c]));
+	if (most <= ZERO_SHARE * k->terms)
+		for (int i = 0; i < 3; i++)
+			memset(k->n[i], 0, sizeof(double) * count);
+}
+
 static void normal_make(struct maker *k, int patch)
 {
 	const struct level_surface *s = k->s;
@@ -136,6 +160,7 @@ static void normal_make(struct maker *k, int patch)
 	}
 	for (int i = 0; i < 3; i++)
 		form_scale(k->n[i], s->degree[0], s->degree[1], s->binomial, true);
+	take_out_noise(k, count);
 	take_out_factors(k);
 	for (int i = 0; i < 3; i++) {
 		for (size_t c = 0; c < count; c++)
