@@ -89,7 +89,7 @@ static enum status cut_nets(struct ray_cut *c, const struct bezier_net *nets, in
 	return ST_OK;
 }
 
-/* Give back what growing took too much, and take the box of the leaves, which is nearly tight. */
+/* Give back what growing took too much. */
 static void cut_settle(struct ray_cut *c)
 {
 	struct ray_leaf *leaves = aligned_alloc(64, c->n_leaves * sizeof *leaves);
@@ -101,15 +101,21 @@ static void cut_settle(struct ray_cut *c)
 		c->capacity = c->n_leaves;
 	}
 	c->bytes += c->capacity * sizeof *c->leaves;
-	c->box = box_empty();
-	for (size_t i = 0; i < c->n_leaves; i++) {
-		const struct ray_bounds *b = &c->bounds[i];
-		struct vec3 lo = vec3((double)b->lo[0], (double)b->lo[1], (double)b->lo[2]);
-		struct vec3 hi = vec3((double)b->hi[0], (double)b->hi[1], (double)b->hi[2]);
+}
 
-		box_add_point(&c->box, vec3_along(c->center, c->scale, lo));
-		box_add_point(&c->box, vec3_along(c->center, c->scale, hi));
+/* The surfaces' own box, nearly tight: cameras are fitted to it. */
+static enum status cut_box(struct ray_cut *c, const struct surface *const *surfaces, int n)
+{
+	c->box = box_empty();
+	for (int i = 0; i < n; i++) {
+		struct box b;
+		enum status st = surface_box(surfaces[i], 1e-4 * c->scale, &b);
+
+		if (st != ST_OK)
+			return st;
+		box_add_box(&c->box, &b);
 	}
+	return ST_OK;
 }
 
 enum status ray_cut_init(struct ray_cut *c, const struct surface *const *surfaces, int n,
@@ -126,6 +132,8 @@ enum status ray_cut_init(struct ray_cut *c, const struct surface *const *surface
 		st = bezier_net_init(&nets[i], surfaces[i]);
 	if (st == ST_OK)
 		st = cut_nets(c, nets, n, r);
+	if (st == ST_OK)
+		st = cut_box(c, surfaces, n);
 	for (int i = 0; nets && i < n; i++)
 		bezier_net_finish(&nets[i]);
 	free(nets);
