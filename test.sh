@@ -43,7 +43,8 @@ run build-sanitize --timeout-multiplier 4
 if [ -n "$long" ]; then
 	run build-test --suite common --suite geometry --suite files --suite ipc --timeout-multiplier 30 \
 		--wrapper 'valgrind -q --leak-check=full --error-exitcode=9'
-	CC=clang build build-fuzz -Dfuzz=true -Dtests=enabled -Db_lundef=false
+	CC=clang build build-fuzz -Dfuzz=true -Dtests=enabled -Db_sanitize=address,undefined -Db_lundef=false \
+		-Dc_args=-fsanitize=fuzzer-no-link -Doptimization=1
 	run build-fuzz --suite fuzz --timeout-multiplier 20
 fi
 

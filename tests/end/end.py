@@ -74,9 +74,9 @@ class Project:
         return [job["id"] for job in self.json("batten", "submit", *arguments)["jobs"]]
 
     def service_pid(self):
-        """The parent of any worker, by the lock file."""
+        """As the lock file names it: "host NAME, process NUMBER"."""
         with open(self.path(".batten", "lock")) as f:
-            return int(f.read().split()[-1])
+            return int(f.readline().split()[-1])
 
     def close(self):
         if os.path.exists(self.path(".batten")):
