@@ -180,18 +180,27 @@ static void send_jobs(struct request *q)
 	}
 }
 
+/* What changes jobs wants to be told which. */
+static bool somebody_named(struct request *q, const json_t *body)
+{
+	if (json_is_array(json_object_get(body, "jobs")) || json_text(body, "group", NULL) ||
+	    json_flag(body, "all", false))
+		return true;
+	fail(q, ST_PARAMETER, "no job is named; give ids, a group or all");
+	return false;
+}
+
 static void take_event(struct request *q, const struct request_row *row, const json_t *body)
 {
 	const json_t *ids = json_object_get(body, "jobs");
 	const char *group = json_text(body, "group", NULL);
 	struct report r = request_report(q);
-	bool named = json_is_array(ids);
-	if (!named && !group && !json_flag(body, "all", false)) {
-		fail(q, ST_PARAMETER, "no job is named");
+	if (!somebody_named(q, body)) {
 		request_end(q);
 		return;
 	}
-	if (named ? !select_named(q, ids) : !select_where(q, group, pass_event, &row->event)) {
+	if (json_is_array(ids) ? !select_named(q, ids)
+	                       : !select_where(q, group, pass_event, &row->event)) {
 		request_end(q);
 		return;
 	}
@@ -209,6 +218,8 @@ static void take_priority(struct request *q, const struct request_row *row, cons
 	struct report r = request_report(q);
 	int64_t priority = json_int(body, "priority", 0);
 	(void)row;
+	if (!somebody_named(q, body))
+		return;
 	if (priority < -1000000 || priority > 1000000)
 		report_error(&r, ST_PARAMETER, "priority is %lld, expected -1000000 to 1000000",
 		             (long long)priority);

@@ -348,6 +348,30 @@ static void add_text(void *data, const char *text)
 	text_add(data, text);
 }
 
+static void priority_changes_the_order(void **state)
+{
+	struct place *p = *state;
+	char *gate = place_gate(p, "gate");
+	int64_t ids[5];
+	for (int i = 0; i < 5; i++)
+		ids[i] = place_submit(p, "good", 1, gate);
+	place_until(p, ids[1], JOB_RUNNING);
+	assert_string_equal(place_job(p, ids[4])->reason, "slots full");
+	assert_int_equal(
+	        client_request(p->client, MESSAGE_PRIORITY,
+	                       json_pack("{s:[I], s:i}", "jobs", (json_int_t)ids[4], "priority", 7),
+	                       NULL, NULL, NULL, NULL),
+	        ST_OK);
+	assert_int_equal(place_job(p, ids[4])->priority, 7);
+	assert_int_equal(place_ask(p, MESSAGE_KILL, ids[0]), ST_OK);
+	place_until(p, ids[4], JOB_RUNNING);
+	assert_int_equal(place_job(p, ids[2])->state, JOB_QUEUED);
+	assert_int_equal(client_request(p->client, MESSAGE_PRIORITY,
+	                                json_pack("{s:i}", "priority", 1), NULL, NULL, NULL, NULL),
+	                 ST_PARAMETER);
+	free(gate);
+}
+
 static void gives_the_log_and_follows_it(void **state)
 {
 	struct place *p = *state;
@@ -468,6 +492,7 @@ int main(void)
 		T(a_watch_that_stays_hears_of_later_jobs),
 		T(bad_submissions_queue_nothing),
 		T(bad_packets_end_only_their_own_connection),
+		T(priority_changes_the_order),
 		T(gives_the_log_and_follows_it),
 		T(prune_takes_what_belongs_to_no_job),
 		T(ten_thousand_jobs_come_from_a_file),
