@@ -19,7 +19,7 @@
 
 extern char **environ;
 
-enum { HELLO_MS = 10000, READY_MS = 10000, READ_BYTES = 1 << 16, STARTS = 3 };
+enum { HELLO_MS = 10000, READY_MS = 10000, READ_BYTES = 1 << 16, STARTS = 3, SHUTDOWN_MS = 10000 };
 
 struct client {
 	int fd;
@@ -255,6 +255,35 @@ enum status client_connect(struct client **out, const struct project *p, bool st
 	if (st == ST_CANCELLED)
 		return report_error(r, ST_RESOURCE, "no service runs in '%s'", p->folder);
 	return st;
+}
+
+/* SHUTDOWN is the one request that is understood before HELLO, and its number never changes. */
+enum status client_shutdown(const struct project *p, bool *ran, const struct report *r)
+{
+	int fd = -1;
+	char *other = NULL, bytes[4096];
+	enum status st = open_socket(&fd, p->socket, r);
+
+	if (st == ST_CANCELLED && (other = lock_socket(p)))
+		st = open_socket(&fd, other, r);
+	free(other);
+	*ran = st == ST_OK;
+	if (st != ST_OK)
+		return st == ST_CANCELLED ? ST_OK : st;
+	json_t *body = json_pack("{s:i}", "id", 1);
+	st = message_send(fd, MESSAGE_SHUTDOWN, body);
+	json_decref(body);
+	struct pollfd there = { .fd = fd, .events = POLLIN };
+	bool open = st == ST_OK;
+	while (open && poll(&there, 1, SHUTDOWN_MS) > 0)
+		open = read(fd, bytes, sizeof bytes) > 0;
+	close(fd);
+	if (open)
+		return report_error(
+		        r, ST_RESOURCE,
+		        "the service did not end within %d s; see '%s/logs/service.log'",
+		        SHUTDOWN_MS / 1000, p->hidden);
+	return ST_OK;
 }
 
 void client_close(struct client *c)

@@ -9,6 +9,7 @@
 #include <sys/pidfd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -130,6 +131,55 @@ static void many_clients_start_one_service(void **state)
 		waitpid(children[i], &status, 0);
 		assert_int_equal(status, 0);
 	}
+	place_connect(p);
+}
+
+static int next_type(int fd, struct message_reader *reader)
+{
+	struct message m;
+	int next;
+	while (!(next = message_reader_next(reader, &m))) {
+		size_t room;
+		char *to = message_reader_room(reader, 4096, &room);
+		ssize_t n = read(fd, to, room);
+		if (n <= 0)
+			return 0;
+		message_reader_filled(reader, (size_t)n);
+	}
+	int type = next > 0 ? (int)m.type : -1;
+	message_finish(&m);
+	return type;
+}
+
+/* What a client of another version meets, and what such a service does. */
+static void another_protocol_is_refused_but_may_shut_down(void **state)
+{
+	struct place *p = *state;
+	struct sockaddr_un address = { .sun_family = AF_UNIX };
+	struct message_reader reader;
+	int service = pidfd_open(p->service, 0), fd = socket(AF_UNIX, SOCK_STREAM, 0);
+	json_t *hello = json_pack("{s:i}", "protocol", MESSAGE_PROTOCOL + 1);
+	json_t *list = json_pack("{s:i}", "id", 5);
+	bool ran = false;
+	strcpy(address.sun_path, p->project.socket);
+	assert_int_equal(connect(fd, (struct sockaddr *)&address, sizeof address), 0);
+	message_reader_init(&reader, FROM_SERVICE);
+	assert_int_equal(message_send(fd, MESSAGE_HELLO, hello), ST_OK);
+	assert_int_equal(next_type(fd, &reader), MESSAGE_HELLO);
+	assert_int_equal(next_type(fd, &reader), MESSAGE_ERROR);
+	assert_int_equal(message_send(fd, MESSAGE_LIST, list), ST_OK); /* no word but that */
+	assert_int_equal(next_type(fd, &reader), MESSAGE_HELLO);
+	assert_int_equal(next_type(fd, &reader), MESSAGE_ERROR);
+	message_reader_finish(&reader);
+	close(fd);
+	json_decref(hello);
+	json_decref(list);
+	assert_int_equal(client_shutdown(&p->project, &ran, NULL), ST_OK);
+	assert_true(ran);
+	assert_true(process_gone(service));
+	close(service);
+	assert_int_equal(client_shutdown(&p->project, &ran, NULL), ST_OK);
+	assert_false(ran);
 	place_connect(p);
 }
 
@@ -281,6 +331,7 @@ int main(void)
 		T(shutdown_stops_at_a_unit_and_the_next_start_goes_on),
 		T(a_second_service_is_refused),
 		T(many_clients_start_one_service),
+		T(another_protocol_is_refused_but_may_shut_down),
 		T(a_service_is_found_wherever_it_listens),
 		T(a_worker_left_behind_is_ended_before_its_job_goes_on),
 		T(crash_after_crash_every_job_is_done),
