@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "base.h"
+#include "csv.h"
 #include "file.h"
+#include "g2.h"
 #include "iges.h"
 #include "number.h"
 #include "path.h"
@@ -39,10 +41,15 @@ enum status model_read(struct model *m, const char *path, const struct progress 
 		st = base_parse(m, bytes, n, path, p, r);
 	else if (iges_recognise(bytes, n))
 		st = iges_parse(m, bytes, n, path, p, r);
+	else if (g2_recognise(bytes, n))
+		st = g2_parse(m, bytes, n, path, p, r);
+	else if (csv_recognise(bytes, n))
+		st = csv_parse(m, bytes, n, path, p, r);
 	else
 		st = report_error(r, ST_INPUT,
 		                  "cannot read '%s': it is neither a batten base file (first line "
-		                  "'batten base 1') nor IGES (80 columns, S in column 73)",
+		                  "'batten base 1') nor IGES (80 columns, S in column 73), .g2 "
+		                  "(first line such as '200 1 0 0') or columns of points",
 		                  path);
 	free(bytes);
 	if (st == ST_OK && (st = model_set_text(&m->file, path)) != ST_OK)

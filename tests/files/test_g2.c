@@ -1,0 +1,234 @@
+/* test_g2.c - .g2 files: splines both ways, what is skipped, what is said of faults. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "construct.h"
+#include "g2.h"
+#include "mutate.h"
+
+static enum status parse(struct model *m, const char *text, size_t n, struct report_store *store)
+{
+	report_store_init(store);
+	model_init(m);
+	return g2_parse(m, text, n, "a.g2", NULL, &store->report);
+}
+
+/* A biquadratic patch, linear in v: u runs fastest in the file. */
+static const char patch[] = "200 1 0 4 255 0 51 255\n3 0\n3 3\n0 0 0 1 1 1\n2 2\n0 0 2 2\n"
+                            "0 0 0\n1 0 1\n2 0 0\n0 3 0\n1 3 1\n2 3 0\n\n";
+static const char arc[] = "100 1 0 0\n2 1\n3 3\n0 0 0 1 1 1\n1 0 1\n1 1 1\n0 2 2\n";
+
+static void a_surface_is_read(void **state)
+{
+	(void)state;
+	struct model m;
+	struct report_store store;
+	assert_true(g2_recognise(patch, sizeof patch - 1));
+	assert_int_equal(parse(&m, patch, sizeof patch - 1, &store), ST_OK);
+	assert_int_equal(m.n, 1);
+	const struct entity *e = &m.entities[0];
+	assert_int_equal(e->kind, ENTITY_SURFACE);
+	assert_int_equal(e->number, 1);
+	assert_true(e->has_color && e->color[0] == 1 && e->color[1] == 0 && e->color[2] == 0.2);
+	assert_int_equal(e->geometry.n[0], 3);
+	assert_int_equal(e->geometry.order[1], 2);
+	assert_true(e->geometry.domain[1][1] == 2 && !e->geometry.rational);
+	struct vec3 p = surface_point(&e->geometry, 0.5, 2);
+	assert_true(p.x == 1 && p.y == 3 && p.z == 0.5);
+	model_finish(&m);
+}
+
+/* Homogeneous coefficients: the quarter circle keeps its radius; 2 dimensions mean z = 0. */
+static void a_rational_curve_is_read(void **state)
+{
+	(void)state;
+	struct model m;
+	struct report_store store;
+	assert_int_equal(parse(&m, arc, sizeof arc - 1, &store), ST_OK);
+	for (int k = 0; k <= 8; k++) {
+		struct vec3 p = curve_point(&m.entities[0].curve, k / 8.0);
+		assert_true(fabs(p.x * p.x + p.y * p.y - 1) < 1e-15 && p.z == 0);
+	}
+	model_finish(&m);
+}
+
+static void what_is_not_read_is_named(void **state)
+{
+	(void)state;
+	struct model m;
+	struct report_store store;
+	struct text t = { 0 };
+	text_add(&t, "250 1 0 0\n3\n0 0 0\n0 0 1\n1 0 0\n0\n0\n\n");
+	text_add(&t, "270 1 0 0\n3\n1\n0 0 0\n0 0 1\n1 0 0\n0 6.28 -1.57 1.57\n0\n");
+	text_add(&t, arc);
+	text_add(&t, "250 1 0 0\n3\n0 0 0\n0 0 1\n1 0 0\n0\n0\n");
+	/* knots that fall cost this curve alone */
+	text_add(&t, "100 1 0 0\n3 0\n2 2\n0 0 1 -1\n0 0 0\n1 1 1\n");
+	text_add(&t, "400 1 0 0\n2\n1 2 3\n4 5 6\n");
+	assert_int_equal(parse(&m, t.s, t.n, &store), ST_OK);
+	assert_int_equal(m.n, 2);
+	assert_int_equal(m.entities[0].kind, ENTITY_CURVE);
+	assert_int_equal(m.entities[1].kind, ENTITY_POINTS);
+	assert_true(m.entities[1].points.n == 2 && m.entities[1].points.values[5] == 6);
+	assert_int_equal(m.n_skipped, 3);
+	assert_true(m.skipped[0].type == 250 && m.skipped[0].count == 2);
+	assert_non_null(strstr(m.skipped[0].reason, "Plane"));
+	assert_int_equal(m.skipped[1].type, 270);
+	assert_int_equal(m.skipped[2].type, 100);
+	model_finish(&m);
+	text_finish(&t);
+}
+
+static void faults_are_named(void **state)
+{
+	(void)state;
+	static const struct {
+		const char *text, *said;
+	} rows[] = {
+		{ "100 1 0 0\n3 0\n2 2\n0 0 1\n", "a.g2:5:1: found the end of the file" },
+		{ "100 1 0 0\n3 0\n2 2\n0 0 1 1\n0 0 zero\n1 1 1\n", "a.g2:5:5: found 'zero'" },
+		{ "100 1 0 0\n4 0\n", "a.g2:2:1: found '4', expected dimension" },
+		{ "100 1 0 0\n3 0\n999999999 2\n0 0 1 1\n", "number of coefficients" },
+		{ "200 1 0 0\n3 0\n2 2\n0 0 1 1\n99 2\n", "coefficients" },
+		{ "100 1 0 0\n3 0\n2 2\n0 0 1 1\n0 0 0\n1 1 1\nhello\n",
+		  "a.g2:7:1: found 'hello'" },
+		{ "250 1 0 0\n3\n", "a Plane is not read" },
+		{ "100 1 0 0\n3 0\n2 2\n0 0 1 -1\n0 0 0\n1 1 1\n", "the curve" },
+	};
+	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+		struct model m;
+		struct report_store store;
+		assert_int_equal(parse(&m, rows[i].text, strlen(rows[i].text), &store), ST_INPUT);
+		if (!strstr(store.error, rows[i].said))
+			fail_msg("'%s' in place of '%s'", store.error, rows[i].said);
+		assert_int_equal(store.n_errors, 1);
+		model_finish(&m);
+	}
+	assert_false(g2_recognise("100 1 0\n", 8));
+	assert_false(g2_recognise("105 1 0 0\n", 10));
+	assert_false(g2_recognise("1.5 2 3 4\n", 10));
+}
+
+static void same_surface(const struct surface *a, const struct surface *b)
+{
+	for (int d = 0; d < 2; d++) {
+		assert_int_equal(a->order[d], b->order[d]);
+		assert_int_equal(a->n[d], b->n[d]);
+		assert_memory_equal(a->knots[d], b->knots[d],
+		                    sizeof(double) * (a->n[d] + a->order[d]));
+	}
+	assert_memory_equal(a->domain, b->domain, sizeof a->domain);
+	assert_memory_equal(a->points, b->points, sizeof(double) * 4 * a->n[0] * a->n[1]);
+}
+
+static void written_is_read_to_the_bit(void **state)
+{
+	(void)state;
+	struct model m, again;
+	struct report_store store;
+	struct text t = { 0 }, second = { 0 };
+	struct entity e;
+	model_init(&m);
+	entity_init(&e, ENTITY_SURFACE);
+	assert_int_equal(make_torus(&e.geometry, vec3(0.1, -1.0 / 3, 7), 3, 1.7), ST_OK);
+	e.has_color = true;
+	e.color[1] = 0.4;
+	assert_int_equal(model_add(&m, &e), ST_OK);
+	entity_init(&e, ENTITY_CURVE);
+	assert_int_equal(
+	        make_arc(&e.curve, vec3(0, 0, 0.7), vec3(1, 0, 0), vec3(0, 1, 0), 0.3, 0.1, 4),
+	        ST_OK);
+	assert_int_equal(model_add(&m, &e), ST_OK);
+	g2_format(&m, &t);
+	assert_int_equal(parse(&again, t.s, t.n, &store), ST_OK);
+	assert_int_equal(again.n, 2);
+	same_surface(&m.entities[0].geometry, &again.entities[0].geometry);
+	assert_true(again.entities[0].color[1] == 0.4);
+	assert_memory_equal(m.entities[1].curve.points, again.entities[1].curve.points,
+	                    sizeof(double) * 4 * m.entities[1].curve.n);
+	g2_format(&again, &second);
+	assert_string_equal(t.s, second.s);
+	model_finish(&again);
+	model_finish(&m);
+	text_finish(&t);
+	text_finish(&second);
+}
+
+/* Of a domain that is a part of the knots', that part alone is written. */
+static void a_part_is_written_as_such(void **state)
+{
+	(void)state;
+	struct model m, again;
+	struct report_store store;
+	struct text t = { 0 };
+	struct entity e;
+	model_init(&m);
+	entity_init(&e, ENTITY_SURFACE);
+	assert_int_equal(make_sphere(&e.geometry, vec3(1, 2, 3), 2), ST_OK);
+	e.geometry.domain[0][0] = 0.5;
+	e.geometry.domain[1][1] = 1;
+	assert_int_equal(model_add(&m, &e), ST_OK);
+	g2_format(&m, &t);
+	assert_int_equal(parse(&again, t.s, t.n, &store), ST_OK);
+	const struct surface *a = &m.entities[0].geometry, *b = &again.entities[0].geometry;
+	assert_memory_equal(a->domain, b->domain, sizeof a->domain);
+	for (int i = 0; i <= 5; i++)
+		for (int j = 0; j <= 5; j++) {
+			double u = a->domain[0][0] + (a->domain[0][1] - a->domain[0][0]) * i / 5;
+			double v = a->domain[1][0] + (a->domain[1][1] - a->domain[1][0]) * j / 5;
+			struct vec3 p = surface_point(a, u, v), q = surface_point(b, u, v);
+			assert_true(vec3_length(vec3_sub(p, q)) < 4e-15);
+		}
+	model_finish(&again);
+	model_finish(&m);
+	text_finish(&t);
+}
+
+static void damaged_files_are_survived(void **state)
+{
+	(void)state;
+	struct text t = { 0 };
+	uint64_t seed = 3;
+	int good = 0, bad = 0;
+	text_add(&t, patch);
+	text_add(&t, arc);
+	text_add(&t, "400 1 0 0\n2\n1 2 3\n4 5 6\n");
+	for (int k = 0; k < 3000; k++) {
+		struct model m;
+		struct report_store store;
+		size_t n = 0;
+		char *bytes = mutate(t.s, t.n, &seed, &n);
+		assert_non_null(bytes);
+		report_store_init(&store);
+		model_init(&m);
+		g2_recognise(bytes, n);
+		enum status st = g2_parse(&m, bytes, n, "a.g2", NULL, &store.report);
+		assert_true(st == ST_OK || st == ST_INPUT);
+		assert_int_equal(store.n_errors, st != ST_OK);
+		st == ST_OK ? good++ : bad++;
+		model_finish(&m);
+		free(bytes);
+	}
+	assert_true(good > 30 && bad > 300);
+	text_finish(&t);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(a_surface_is_read),
+		cmocka_unit_test(a_rational_curve_is_read),
+		cmocka_unit_test(what_is_not_read_is_named),
+		cmocka_unit_test(faults_are_named),
+		cmocka_unit_test(written_is_read_to_the_bit),
+		cmocka_unit_test(a_part_is_written_as_such),
+		cmocka_unit_test(damaged_files_are_survived),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
