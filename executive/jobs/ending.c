@@ -5,6 +5,9 @@
 
 #include "job.h"
 
+/* times that a job's process may be lost before the job is */
+enum { LOSSES_MAX = 3 };
+
 /* The service must be gone within 5 s. */
 static const double leave_grace_s = 2;
 
@@ -13,7 +16,7 @@ static const struct launcher *launcher(const struct job *job)
 	return job->q->ports.launcher;
 }
 
-static void job_signal(struct job *job, enum launcher_signal signal)
+void job_signal(struct job *job, enum launcher_signal signal)
 {
 	launcher(job)->signal(launcher(job)->data, job->stats.id, signal);
 }
@@ -90,7 +93,7 @@ static void leave_process(struct job *job)
 	for (int i = 0; i < q->n_active; i++)
 		if (q->active[i] == job)
 			q->active[i--] = q->active[--q->n_active];
-	q->memory_mib -= job->stats.memory_mib;
+	job_pool(job)->memory_mib -= job_memory_mib(job);
 	job_times(job);
 	job->process = false;
 	job->deadline = INFINITY;
@@ -102,6 +105,20 @@ static void leave_process(struct job *job)
 	if (job->exit.peak_kib >= 0)
 		job->stats.peak_kib = job->exit.peak_kib;
 	launcher(job)->forget(launcher(job)->data, job->stats.id);
+}
+
+/* It was not its own doing: it goes on from its part file, but not for ever. */
+static void lose(struct job *job)
+{
+	if (++job->losses < LOSSES_MAX) {
+		job->front = true;
+		job_enter(job, JOB_QUEUED);
+		return;
+	}
+	job_enter(job, JOB_LOST);
+	job_reason(job, "%s, %d times; 'batten retry %lld' goes on from its part file",
+	           job->fault ? job->fault : "its process went away", LOSSES_MAX,
+	           (long long)job->stats.id);
 }
 
 void job_gone(struct job *job)
@@ -127,6 +144,8 @@ void job_gone(struct job *job)
 		job_reason(job,
 		           "stopped from outside; 'batten retry %lld' goes on from its part file",
 		           (long long)job->stats.id);
+	} else if (job->exit.lost && cause == CAUSE_NONE) {
+		lose(job);
 	} else {
 		explain(job);
 		job_enter(job, JOB_FAILED);

@@ -10,6 +10,17 @@ enum job_cause { CAUSE_NONE, CAUSE_KILL, CAUSE_FAULT, CAUSE_LEAVE };
 /* How far the ending of a worker has gone. */
 enum ending { STEP_BEGIN, STEP_CANCEL, STEP_TERMINATE, STEP_KILL };
 
+/* Where jobs run, each with a line of its own: they do not wait for each other. */
+enum { POOL_HERE, POOL_ELSEWHERE, N_POOLS };
+
+struct pool {
+	struct job *first, *tail;  /* the line */
+	const struct job *blocked; /* first in line that finds no threads or memory */
+	int active;                /* starting, running or ending */
+	int threads;               /* of those */
+	int64_t memory_mib;        /* of jobs with a process */
+};
+
 /* So many at once, then so many a second. */
 struct bucket {
 	double level, at;
@@ -23,6 +34,7 @@ struct job {
 	bool front; /* first in line */
 	bool forgotten;
 	int unsettled; /* jobs it waits for */
+	int losses;    /* of processes that were not its own doing */
 
 	/* this run */
 	bool process;           /* it has one, or its pipe is open */
@@ -51,17 +63,14 @@ struct queue {
 	struct queue_limits limits;
 	struct job **jobs; /* owned; by rising id */
 	int n, cap;
-	int64_t last;             /* highest id ever given */
-	struct job *first, *tail; /* the line */
-	struct job **active;      /* owned array of borrowed: jobs with a process */
+	int64_t last; /* highest id ever given */
+	struct pool pools[N_POOLS];
+	struct job **active; /* owned array of borrowed: jobs with a process */
 	int n_active, active_cap;
 	int count[N_JOB_STATES];
-	int threads;          /* of jobs that run */
-	int64_t memory_mib;   /* of jobs with a process */
 	struct job **changed; /* owned array of borrowed */
 	int n_changed, changed_cap;
-	const struct job *blocked; /* first in line that finds no threads or memory */
-	int dependents;            /* jobs that wait, or waited, for others */
+	int dependents; /* jobs that wait, or waited, for others */
 	bool leaving, unsettled;
 	char *fault; /* owned; why the ledger takes nothing */
 	double retry_at;
@@ -71,6 +80,9 @@ struct queue {
 
 double queue_now(const struct queue *q);
 struct job *queue_job(const struct queue *q, int64_t id);
+struct pool *job_pool(const struct job *job);
+int job_threads(const struct job *job);        /* of all its processes */
+int64_t job_memory_mib(const struct job *job); /* likewise */
 
 /* state.c */
 /* Let it happen; ST_INPUT where the table has no such cell. */
@@ -82,6 +94,7 @@ void job_fault(struct job *job, const char *format, ...) __attribute__((format(p
 void job_changed(struct job *job, bool urgent);
 
 /* ending.c */
+void job_signal(struct job *job, enum launcher_signal signal);
 void job_end(struct job *job, enum job_cause cause, enum ending step);
 void job_escalate(struct job *job);
 void job_gone(struct job *job); /* its final state, or queued again */

@@ -13,6 +13,7 @@ struct launcher_exit {
 	int signal;       /* that ended it, or 0 */
 	double cpu_s;     /* NaN: not known */
 	int64_t peak_kib; /* -1: not known */
+	bool lost;        /* not by its own doing: its node or its launcher went away */
 };
 
 /* Where a launcher tells what happens; loop thread, never from inside a call of the launcher. */
@@ -23,6 +24,8 @@ struct launcher_sink {
 	void (*drained)(void *data, int64_t id);                    /* its pipe has ended */
 	void (*exited)(void *data, int64_t id, const struct launcher_exit *e);
 	void (*stopped)(void *data, int64_t id, bool stopped); /* or goes on */
+	/* It will begin when others let it, and why not yet; NULL: from now on it can say HELLO. */
+	void (*waits)(void *data, int64_t id, const char *reason);
 };
 
 /* Every signal goes to the worker and all that it started. */

@@ -16,10 +16,25 @@ static bool before(const struct job *a, const struct job *b)
 	return a->stats.id < b->stats.id;
 }
 
+struct pool *job_pool(const struct job *job)
+{
+	return &job->q->pools[stats_is_local(&job->stats) ? POOL_HERE : POOL_ELSEWHERE];
+}
+
+int job_threads(const struct job *job)
+{
+	return job->stats.threads * stats_processes(&job->stats);
+}
+
+int64_t job_memory_mib(const struct job *job)
+{
+	return job->stats.memory_mib * stats_processes(&job->stats);
+}
+
 /* From the end: a new job mostly belongs there. */
 void line_add(struct job *job)
 {
-	struct queue *q = job->q;
+	struct pool *q = job_pool(job);
 	struct job *after = q->tail;
 	while (after && before(job, after))
 		after = after->prev;
@@ -38,7 +53,7 @@ void line_add(struct job *job)
 
 void line_remove(struct job *job)
 {
-	struct queue *q = job->q;
+	struct pool *q = job_pool(job);
 	if (job->prev)
 		job->prev->next = job->next;
 	else
@@ -51,15 +66,30 @@ void line_remove(struct job *job)
 	job->in_line = false;
 }
 
+/* Elsewhere somebody else counts threads and memory. */
+static bool is_here(const struct job *job)
+{
+	return job_pool(job) == &job->q->pools[POOL_HERE];
+}
+
+static bool slot_free(const struct queue *q, const struct pool *pool)
+{
+	bool here = pool == &q->pools[POOL_HERE];
+	return pool->active < (here ? q->limits.jobs : q->limits.jobs_elsewhere);
+}
+
 static bool threads_free(const struct queue *q, const struct job *job)
 {
-	return !queue_active(q) || q->threads + job->stats.threads <= q->limits.threads;
+	const struct pool *pool = job_pool(job);
+	return !is_here(job) || !pool->active ||
+	       pool->threads + job_threads(job) <= q->limits.threads;
 }
 
 static bool memory_free(const struct queue *q, const struct job *job)
 {
-	int64_t used = q->memory_mib, wants = job->stats.memory_mib, limit = q->limits.memory_mib;
-	return !limit || !wants || !used || used + wants <= limit;
+	int64_t used = job_pool(job)->memory_mib, wants = job_memory_mib(job);
+	int64_t limit = q->limits.memory_mib;
+	return !is_here(job) || !limit || !wants || !used || used + wants <= limit;
 }
 
 static bool active_room(struct queue *q)
@@ -116,27 +146,31 @@ static void start(struct job *job)
 	}
 	run_reset(job);
 	q->active[q->n_active++] = job;
-	q->memory_mib += job->stats.memory_mib;
+	job_pool(job)->memory_mib += job_memory_mib(job);
 }
 
 /* In order: a job that finds no room is not overtaken, or a wide one would wait for ever. */
-void line_start(struct queue *q)
+static void pool_start(struct queue *q, struct pool *pool)
 {
-	q->blocked = NULL;
-	if (q->leaving || q->fault)
-		return;
-	for (struct job *job = q->first, *next; job; job = next) {
+	pool->blocked = NULL;
+	for (struct job *job = pool->first, *next; job; job = next) {
 		next = job->next;
 		if (job->unsettled)
 			continue;
-		if (queue_active(q) >= q->limits.jobs)
+		if (!slot_free(q, pool))
 			return;
 		if (!threads_free(q, job) || !memory_free(q, job)) {
-			q->blocked = job;
+			pool->blocked = job;
 			return;
 		}
 		start(job);
 	}
+}
+
+void line_start(struct queue *q)
+{
+	for (int i = 0; i < N_POOLS && !q->leaving && !q->fault; i++)
+		pool_start(q, &q->pools[i]);
 }
 
 int line_unsettled(const struct job *job)
@@ -198,6 +232,7 @@ static void reason_after(struct job *job)
 void line_reason(struct job *job)
 {
 	const struct queue *q = job->q;
+	const struct pool *pool = job_pool(job);
 	if (job->stats.state != JOB_QUEUED)
 		return;
 	if (q->leaving)
@@ -206,17 +241,17 @@ void line_reason(struct job *job)
 		job_reason(job, "the ledger takes nothing: %s", q->fault);
 	else if (job->unsettled)
 		reason_after(job);
-	else if (queue_active(q) >= q->limits.jobs)
+	else if (!slot_free(q, pool))
 		job_reason(job, "slots full");
 	else if (!threads_free(q, job))
-		job_reason(job, "threads: %d of %d in use, it wants %d", q->threads,
-		           q->limits.threads, job->stats.threads);
+		job_reason(job, "threads: %d of %d in use, it wants %d", pool->threads,
+		           q->limits.threads, job_threads(job));
 	else if (!memory_free(q, job))
 		job_reason(job, "memory: %lld of %lld MiB in use, it wants %lld",
-		           (long long)q->memory_mib, (long long)q->limits.memory_mib,
-		           (long long)job->stats.memory_mib);
-	else if (q->blocked)
-		job_reason(job, "behind job %lld", (long long)q->blocked->stats.id);
+		           (long long)pool->memory_mib, (long long)q->limits.memory_mib,
+		           (long long)job_memory_mib(job));
+	else if (pool->blocked)
+		job_reason(job, "behind job %lld", (long long)pool->blocked->stats.id);
 	else
 		job_reason(job, NULL);
 }

@@ -17,7 +17,8 @@ struct clock {
 };
 
 struct queue_limits {
-	int jobs, threads;  /* at once; a single job of more threads runs alone */
+	int jobs, threads;  /* at once on this machine; a single job of more threads runs alone */
+	int jobs_elsewhere; /* at once, of jobs that have other limits than this machine's */
 	int64_t memory_mib; /* at once, of jobs that state it; 0: no limit */
 	int job_threads;    /* of a job that does not say */
 	int64_t job_memory_mib;

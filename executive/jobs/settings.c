@@ -18,7 +18,10 @@ const struct setting_row settings_table[N_SETTINGS] = { SETTINGS_MAP(X) };
 #undef X
 
 /* What a word setting may be. */
-static const char *const settings_words[N_SETTINGS] = { [SETTING_COLOR] = "auto, always or never" };
+static const char *const settings_words[N_SETTINGS] = {
+	[SETTING_COLOR] = "auto, always or never",
+	[SETTING_LAUNCHER] = "local or slurm",
+};
 
 static bool word_allowed(const char *words, const char *value)
 {
@@ -38,6 +41,8 @@ static enum status value_check(int which, const char *value, const char *where,
 	const struct setting_row *row = &settings_table[which];
 	int64_t i;
 	double x;
+	if (row->type == 't')
+		return ST_OK;
 	if (row->type == 'w') {
 		if (word_allowed(settings_words[which], value))
 			return ST_OK;

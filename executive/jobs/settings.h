@@ -7,7 +7,7 @@
 
 #include "project.h"
 
-/* key, type (i integer, s seconds, w word), default, min, max, help */
+/* key, type (i integer, s seconds, w word, t text, t text), default, min, max, help */
 #define SETTINGS_MAP(X)                                                                            \
 	X(JOBS, "jobs", 'i', "0", 0, 1024,                                                         \
 	  "jobs running at once; 0: as many as processors, 4 at least")                            \
@@ -19,6 +19,13 @@
 	X(HELLO_GRACE, "hello-grace", 's', "10", 0.1, 3600, "seconds a worker has to say HELLO")   \
 	X(END_GRACE, "end-grace", 's', "5", 0.1, 3600, "seconds from a worker's pipe to its exit") \
 	X(IDLE, "idle", 's', "60", 0.1, 86400, "seconds after which an idle service ends")         \
+	X(LAUNCHER, "launcher", 'w', "local", 0, 0,                                                \
+	  "where jobs run that do not say: local, slurm")                                          \
+	X(SLURM_JOBS, "slurm-jobs", 'i', "100", 1, 1 << 20, "jobs in Slurm at once")               \
+	X(SLURM_PARTITION, "slurm-partition", 't', "", 0, 0, "partition of Slurm jobs")            \
+	X(SLURM_ACCOUNT, "slurm-account", 't', "", 0, 0, "account of Slurm jobs")                  \
+	X(SLURM_TIME, "slurm-time", 't', "", 0, 0, "time limit of Slurm jobs, as srun --time")     \
+	X(SLURM_OPTIONS, "slurm-options", 't', "", 0, 0, "more options of srun, by blanks")        \
 	X(COLOR, "color", 'w', "auto", 0, 0, "auto, always or never")
 
 #define X(name, key, type, def, min, max, help) SETTING_##name,

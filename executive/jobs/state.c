@@ -13,16 +13,6 @@
 const char *const job_event_asked[N_JOB_EVENTS] = { JOB_EVENT_MAP(X) };
 #undef X
 
-static const struct launcher *launcher(const struct job *job)
-{
-	return job->q->ports.launcher;
-}
-
-static void job_signal(struct job *job, enum launcher_signal signal)
-{
-	launcher(job)->signal(launcher(job)->data, job->stats.id, signal);
-}
-
 void job_reason(struct job *job, const char *format, ...)
 {
 	char text[1024];
@@ -65,7 +55,9 @@ void job_enter(struct job *job, enum job_state state)
 	enum job_state old = job->stats.state;
 	if (job->in_line)
 		line_remove(job);
-	q->threads += job->stats.threads * (holds_slot(state) - holds_slot(old));
+	struct pool *pool = job_pool(job);
+	pool->active += holds_slot(state) - holds_slot(old);
+	pool->threads += job_threads(job) * (holds_slot(state) - holds_slot(old));
 	q->count[old]--;
 	q->count[state]++;
 	job->stats.state = state;

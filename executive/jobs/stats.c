@@ -60,6 +60,10 @@ void stats_finish(struct Stats *s)
 	json_decref(s->parameters);
 	free(s->output);
 	free(s->after);
+	free(s->on);
+	free(s->partition);
+	free(s->account);
+	free(s->time);
 	free(s->log);
 	memset(s, 0, sizeof *s);
 }
@@ -96,6 +100,10 @@ enum status stats_copy(struct Stats *out, const struct Stats *s)
 	out->reason = duplicate(s->reason, &failed);
 	out->phase = duplicate(s->phase, &failed);
 	out->output = duplicate(s->output, &failed);
+	out->on = duplicate(s->on, &failed);
+	out->partition = duplicate(s->partition, &failed);
+	out->account = duplicate(s->account, &failed);
+	out->time = duplicate(s->time, &failed);
 	out->log = duplicate(s->log, &failed);
 	out->parameters = s->parameters ? json_deep_copy(s->parameters) : NULL;
 	out->inputs = array(s->n_inputs, sizeof *out->inputs, &failed);
@@ -121,6 +129,16 @@ enum status stats_copy(struct Stats *out, const struct Stats *s)
 		return ST_RESOURCE;
 	}
 	return ST_OK;
+}
+
+bool stats_is_local(const struct Stats *s)
+{
+	return !s->on || !strcmp(s->on, "local");
+}
+
+int stats_processes(const struct Stats *s)
+{
+	return s->shards > 1 ? s->shards : 1;
 }
 
 double stats_fraction(const struct Stats *s)
@@ -271,6 +289,11 @@ static void write_all(const struct writer *w, const struct Stats *s)
 	write_inputs(w, s);
 	write_outputs(w, s);
 	write_text(w, "log", s->log);
+	write_text(w, "on", s->on || w->brief ? s->on : "local");
+	write_integer(w, "shards", stats_processes(s), s->shards > 1 || !w->brief);
+	write_text(w, "partition", s->partition);
+	write_text(w, "account", s->account);
+	write_text(w, "time", s->time);
 	write_integer(w, "priority", s->priority, s->priority || !w->brief);
 	write_integer(w, "done", s->done, s->total > 0);
 	write_integer(w, "total", s->total, s->total > 0);
@@ -381,6 +404,11 @@ enum status stats_from_json(struct Stats *s, const json_t *o)
 	s->phase = duplicate(json_text(o, "phase", NULL), &failed);
 	s->output = duplicate(json_text(o, "output", NULL), &failed);
 	s->log = duplicate(json_text(o, "log", NULL), &failed);
+	s->on = duplicate(json_text(o, "on", NULL), &failed);
+	s->shards = (int)json_int(o, "shards", 0);
+	s->partition = duplicate(json_text(o, "partition", NULL), &failed);
+	s->account = duplicate(json_text(o, "account", NULL), &failed);
+	s->time = duplicate(json_text(o, "time", NULL), &failed);
 	s->priority = (int)json_int(o, "priority", 0);
 	s->done = json_int(o, "done", 0);
 	s->total = json_int(o, "total", 0);

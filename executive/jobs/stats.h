@@ -70,7 +70,10 @@ struct Stats {
 	int threads;
 	int64_t memory_mib; /* 0: no limit */
 	bool force;
-	char *log; /* path */
+	char *on;                         /* name of its launcher; NULL: local */
+	int shards;                       /* processes that share its units; 0, 1: one does all */
+	char *partition, *account, *time; /* what Slurm is told; NULL: as the settings say */
+	char *log;                        /* path */
 };
 
 /* Nothing known; every number that may be unknown says so. */
@@ -81,7 +84,7 @@ enum status stats_copy(struct Stats *out, const struct Stats *s);
 
 /* The object that jobs --json shows (DESIGN: id worker state color fraction eta_s file_name
  * path_name pid host group reason wall_s suspended_s cpu_s peak_kib inputs outputs log), plus
- * priority, done, total, phase, after, parameters, output, threads, memory_mib, force, submitted,
+ * on, shards, partition, account, time, priority, done, total, phase, after, parameters, output, threads, memory_mib, force, submitted,
  * started, ended. New reference; NULL for want of memory. */
 json_t *stats_to_json(const struct Stats *s);
 
@@ -95,6 +98,8 @@ void stats_write_brief(struct text *t, const struct Stats *s);
  * ST_RESOURCE. */
 enum status stats_from_json(struct Stats *out, const json_t *o);
 
+bool stats_is_local(const struct Stats *s);   /* it runs on this machine */
+int stats_processes(const struct Stats *s);   /* that share its units, 1 at least */
 double stats_fraction(const struct Stats *s); /* 0 .. 1, NaN where not known */
 
 #endif

@@ -199,6 +199,19 @@ static void sink_stopped(void *data, int64_t id, bool stopped)
 		job_step(job, stopped ? EV_STOPPED : EV_CONTINUED, NULL);
 }
 
+static void sink_waits(void *data, int64_t id, const char *reason)
+{
+	struct job *job = running(data, id);
+	if (!job || job->greeted || job->stats.state != JOB_STARTING)
+		return;
+	job->deadline = reason ? INFINITY : queue_now(job->q) + job->q->limits.hello_grace;
+	if (reason)
+		job_reason(job, "%s", reason);
+	else
+		job_reason(job, NULL);
+	job_changed(job, true);
+}
+
 struct launcher_sink queue_sink(struct queue *q)
 {
 	return (struct launcher_sink){
@@ -208,6 +221,7 @@ struct launcher_sink queue_sink(struct queue *q)
 		.drained = sink_drained,
 		.exited = sink_exited,
 		.stopped = sink_stopped,
+		.waits = sink_waits,
 	};
 }
 
