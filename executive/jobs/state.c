@@ -108,6 +108,7 @@ static void do_greet(struct job *job, const char *by)
 {
 	(void)by;
 	job->deadline = INFINITY;
+	job_reason(job, NULL);
 	job_enter(job, JOB_RUNNING);
 }
 
@@ -243,6 +244,7 @@ static void do_gone(struct job *job, const char *by)
 static void do_retry(struct job *job, const char *by)
 {
 	(void)by;
+	job->losses = 0;
 	job->stats.ended = 0;
 	job->stats.eta_s = NAN;
 	job_reason(job, NULL);
