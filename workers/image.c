@@ -24,8 +24,8 @@ enum status image_init(struct image *im, struct work *w, const char *view, int w
 	if (st != ST_OK)
 		return st;
 
-	struct box box = ray_scene_box(im->scene);
-	st = camera_fit(&im->camera, view, &box, width, height, &w->report);
+	st = camera_fit_surfaces(&im->camera, view, w->surfaces, w->n_surfaces, width, height,
+	                         &w->report);
 	if (st != ST_OK) {
 		image_finish(im);
 		return st;

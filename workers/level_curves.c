@@ -182,17 +182,17 @@ enum status level_curves_draw(void *data, const char *path, const struct report 
 	const struct level_curves *c = data;
 	const struct work *w = c->work;
 	struct camera camera;
-	struct box box;
 	size_t n = 0, at = 0;
 	for (int i = 0; i < c->n; i++)
 		n += c->results[i].n_branches;
 	struct picture_curve *curves = calloc(n + 1, sizeof *curves);
 	char *labels = calloc((size_t)c->n, LABEL_SIZE);
-	enum status st = curves && labels ? surface_box(w->surfaces[0], 0, &box) : ST_RESOURCE;
-	if (st != ST_OK)
-		report_error(r, st, "no memory to draw the curves");
+	enum status st;
+	if (!curves || !labels)
+		st = report_error(r, ST_RESOURCE, "no memory to draw the curves");
 	else
-		st = camera_fit(&camera, work_text(w, "view"), &box, 1600, 1000, r);
+		st = camera_fit_surfaces(&camera, work_text(w, "view"), w->surfaces, w->n_surfaces,
+		                         1600, 1000, r);
 	if (st == ST_OK) {
 		for (int i = 0; i < c->n; i++)
 			at += curves_draw(c, i, labels + LABEL_SIZE * i, curves + at);

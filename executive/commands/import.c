@@ -1,6 +1,9 @@
 /* import.c - every entity of a geometry file as .base. */
+#include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base.h"
 #include "file.h"
@@ -58,7 +61,11 @@ static enum status write_entity(struct import *x, const struct entity *e)
 	if (!path)
 		report_error(r, st, "memory ran out");
 	else if (x->inputs && path_exists(path))
-		st = ST_OK; /* the same bytes */
+		/* the same bytes; prune leaves young ones alone until they are submitted */
+		st = utimensat(AT_FDCWD, path, NULL, 0)
+		             ? report_error(r, status_from_errno(errno), "cannot touch '%s': %s",
+		                            path, strerror(errno))
+		             : ST_OK;
 	else
 		st = file_write(path, t.s, t.n, r);
 	if (st == ST_OK)

@@ -5,23 +5,11 @@
 static int shutdown_run(const struct invocation *i)
 {
 	struct project p;
-	struct client *client = NULL;
-	struct report_store quiet;
+	bool ran = false;
 	enum status st = project_find(&p, NULL, &i->report);
 
-	if (st != ST_OK)
-		return status_exit(st);
-	report_store_init(&quiet);
-	st = client_connect(&client, &p, false, &quiet.report);
-	bool ran = st == ST_OK;
-	if (ran)
-		st = client_request(client, MESSAGE_SHUTDOWN, json_object(), NULL, NULL, NULL,
-		                    &i->report);
-	else if (st == ST_RESOURCE)
-		st = ST_OK;
-	else
-		report_error(&i->report, st, "%s", quiet.error);
-	client_close(client);
+	if (st == ST_OK)
+		st = client_shutdown(&p, &ran, &i->report);
 	project_finish(&p);
 	if (st != ST_OK)
 		return status_exit(st);

@@ -146,6 +146,98 @@ enum status camera_fit(struct camera *out, const char *view, const struct box *b
 	return ST_OK;
 }
 
+/* Largest values of +-x, +-y and -z over points in the camera's axes; `lean` is what each is to be
+ * reduced by for a unit of depth: nothing, or the tangents of half the usable angles. */
+struct extent {
+	double lean[2];
+	double right, left, top, bottom, near;
+};
+
+static void extent_add(struct extent *e, const struct camera *c, struct vec3 p)
+{
+	double x = vec3_dot(p, c->right), y = vec3_dot(p, c->up), z = vec3_dot(p, c->ahead);
+
+	e->right = fmax(e->right, x - e->lean[0] * z);
+	e->left = fmax(e->left, -x - e->lean[0] * z);
+	e->top = fmax(e->top, y - e->lean[1] * z);
+	e->bottom = fmax(e->bottom, -y - e->lean[1] * z);
+	e->near = fmax(e->near, -z);
+}
+
+/* Samples along one direction of a surface: its control points tell how much it may turn. */
+static int samples_along(const struct surface *s, int d)
+{
+	enum { FEWEST = 24, MOST = 128 };
+	int n = 2 * s->n[d];
+
+	return n < FEWEST ? FEWEST : n > MOST ? MOST : n;
+}
+
+static void extent_add_surface(struct extent *e, const struct camera *c, const struct surface *s)
+{
+	int nu = samples_along(s, 0), nv = samples_along(s, 1);
+
+	for (int i = 0; i <= nu; i++)
+		for (int j = 0; j <= nv; j++) {
+			double a = (double)i / nu, b = (double)j / nv;
+			extent_add(e, c,
+			           surface_point(s, (1 - a) * s->domain[0][0] + a * s->domain[0][1],
+			                         (1 - b) * s->domain[1][0] + b * s->domain[1][1]));
+		}
+}
+
+/* Every point p with |x - mx| <= lean (z + away) is in the image of an eye at (mx, my, -away): the
+ * extents tell the nearest such eye; without perspective, the smallest image. */
+static void frame(struct camera *c, const struct extent *e, double wide, double high, double size)
+{
+	double mx = (e->right - e->left) / 2, my = (e->top - e->bottom) / 2;
+	double x = (e->right + e->left) / 2, y = (e->top + e->bottom) / 2, away = size + e->near;
+
+	if (c->kind == CAMERA_ORTHOGRAPHIC) {
+		double half = fmax(x / wide, y / high);
+		c->half = half > 1e-6 * size ? half : size / 2;
+	} else
+		away = fmax(fmax(x / e->lean[0], y / e->lean[1]), e->near + 1e-3 * size);
+	c->eye = vec3_scale(c->right, mx);
+	c->eye = vec3_along(c->eye, my, c->up);
+	c->eye = vec3_along(c->eye, -away, c->ahead);
+}
+
+enum status camera_fit_surfaces(struct camera *out, const char *view,
+                                const struct surface *const *surfaces, int n, int width, int height,
+                                const struct report *r)
+{
+	struct box box = box_empty();
+	enum status st = ST_OK;
+
+	for (int i = 0; i < n && st == ST_OK; i++) {
+		struct box one;
+		st = surface_box(surfaces[i], 1e-3 * surface_size(surfaces[i]), &one);
+		if (st == ST_OK)
+			box_add_box(&box, &one);
+	}
+	if (st != ST_OK)
+		return report_error(r, st, "cannot place a camera: memory ran out");
+	st = camera_fit(out, view, &box, width, height, r);
+	if (st != ST_OK)
+		return st;
+	double wide = (1 - 2 * margin) * width / smaller_side(out);
+	double high = (1 - 2 * margin) * height / smaller_side(out), size = box_diagonal(&box);
+	struct extent e = { .right = -INFINITY,
+		            .left = -INFINITY,
+		            .top = -INFINITY,
+		            .bottom = -INFINITY,
+		            .near = -INFINITY };
+	if (out->kind == CAMERA_PERSPECTIVE) {
+		e.lean[0] = out->half * wide;
+		e.lean[1] = out->half * high;
+	}
+	for (int i = 0; i < n; i++)
+		extent_add_surface(&e, out, surfaces[i]);
+	frame(out, &e, wide, high, size > 0 ? size : 1);
+	return ST_OK;
+}
+
 void camera_ray(const struct camera *c, double x, double y, struct vec3 *origin,
                 struct vec3 *direction)
 {

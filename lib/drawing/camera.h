@@ -3,6 +3,7 @@
 #define BATTEN_CAMERA_H
 
 #include "box.h"
+#include "surface.h"
 #include "vec.h"
 
 enum camera_kind { CAMERA_ORTHOGRAPHIC, CAMERA_PERSPECTIVE };
@@ -27,6 +28,15 @@ struct camera {
  */
 enum status camera_fit(struct camera *out, const char *view, const struct box *box, int width,
                        int height, const struct report *r);
+
+/*
+ * The same for surfaces instead of their box, so tighter: the points of a grid on each fit within the
+ * margin, and the middle of what is seen is the middle of the image.
+ * Errors: as camera_fit, and ST_RESOURCE.
+ */
+enum status camera_fit_surfaces(struct camera *out, const char *view,
+                                const struct surface *const *surfaces, int n, int width, int height,
+                                const struct report *r);
 
 /* Ray through image point (x, y) in pixels, (0, 0) the upper left corner of the upper left pixel.
  * direction is of unit length; its length along the ray is not the depth of a perspective camera. */

@@ -8,6 +8,8 @@
 
 #include <cmocka.h>
 
+#include "construct.h"
+
 static const struct box hull = { { -3, -1, 0 }, { 40, 5, 7 } };
 
 static const char *const views[] = {
@@ -62,6 +64,42 @@ static void test_fit(void **state)
 			}
 			near(used, 0.88, 1e-9);
 		}
+}
+
+/* A sphere fills the image to its margins from everywhere, up to the samples' distance. */
+static void test_fit_surfaces(void **state)
+{
+	struct surface ball, speck;
+	(void)state;
+	assert_int_equal(make_sphere(&ball, vec3(3, -2, 50), 4), ST_OK);
+	assert_int_equal(make_sphere(&speck, vec3(3, -2, 50), 1), ST_OK);
+	const struct surface *both[] = { &ball, &speck };
+	for (int i = 0; i < N_VIEWS; i++)
+		for (int k = 0; k < N_SIZES; k++) {
+			struct camera c;
+			double x, y, depth, w = sizes[k][0], h = sizes[k][1], used[4] = { 0 };
+			assert_int_equal(camera_fit_surfaces(&c, views[i], both, 2, sizes[k][0],
+			                                     sizes[k][1], NULL),
+			                 ST_OK);
+			for (int a = 0; a <= 200; a++)
+				for (int b = 0; b <= 200; b++) {
+					struct vec3 p =
+					        surface_point(&ball, ball.domain[0][1] * a / 200,
+					                      ball.domain[1][0] * (200 - b) / 200 +
+					                              ball.domain[1][1] * b / 200);
+					assert_true(camera_project(&c, p, &x, &y, &depth));
+					assert_true(depth > 0);
+					used[0] = fmax(used[0], 2 * x / w - 1);
+					used[1] = fmax(used[1], 1 - 2 * x / w);
+					used[2] = fmax(used[2], 2 * y / h - 1);
+					used[3] = fmax(used[3], 1 - 2 * y / h);
+				}
+			near(fmax(used[0], used[2]), 0.88, 0.01);
+			near(used[0], used[1], 0.01);
+			near(used[2], used[3], 0.01);
+		}
+	surface_finish(&ball);
+	surface_finish(&speck);
 }
 
 static void test_axes(void **state)
@@ -194,10 +232,10 @@ static void test_refused(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_fit),     cmocka_unit_test(test_axes),
-		cmocka_unit_test(test_named),   cmocka_unit_test(test_rays),
-		cmocka_unit_test(test_behind),  cmocka_unit_test(test_thin),
-		cmocka_unit_test(test_refused),
+		cmocka_unit_test(test_fit),  cmocka_unit_test(test_fit_surfaces),
+		cmocka_unit_test(test_axes), cmocka_unit_test(test_named),
+		cmocka_unit_test(test_rays), cmocka_unit_test(test_behind),
+		cmocka_unit_test(test_thin), cmocka_unit_test(test_refused),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
