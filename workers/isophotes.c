@@ -117,7 +117,9 @@ static enum status isophotes_begin(struct work *w)
 	s->tolerance =
 	        work_has(w, "tolerance") ? work_real(w, "tolerance") : tolerance_share * size;
 	for (int i = 0; st == ST_OK && i < s->n_angles; i++) {
-		struct level_field f = { LEVEL_ISOPHOTE, light, cos(s->angles[i] * M_PI / 180) };
+		struct level_field f = { .kind = LEVEL_ISOPHOTE,
+			                 .direction = light,
+			                 .value = cos(s->angles[i] * M_PI / 180) };
 		st = i == 0 ? level_create(&s->levels[0], w->surfaces[0], &f, s->tolerance,
 		                           &w->report)
 		            : level_create_like(&s->levels[i], s->levels[0], f.value, &w->report);

@@ -55,7 +55,7 @@ static inline enum status shape_trace(const struct surface *s, enum level_kind k
                                       struct vec3 direction, double value, double tolerance,
                                       struct level_result *out, const struct report *r)
 {
-	struct level_field field = { kind, direction, value };
+	struct level_field field = { .kind = kind, .direction = direction, .value = value };
 	struct level *l = NULL;
 	enum status st = level_create(&l, s, &field, tolerance, r);
 	if (st == ST_OK)

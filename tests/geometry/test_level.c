@@ -700,26 +700,33 @@ static void test_wrong(void **state)
 {
 	(void)state;
 	static const struct {
-		struct level_field field;
-		double tolerance;
+		enum level_kind kind;
+		struct vec3 direction;
+		double value, tolerance;
 	} wrong[] = {
-		{ { LEVEL_ISOPHOTE, { 0, 0, 0 }, 0.5 }, 1e-5 },
-		{ { LEVEL_ISOPHOTE, { 0, NAN, 1 }, 0.5 }, 1e-5 },
-		{ { LEVEL_ISOPHOTE, { 0, 0, 1 }, 1.01 }, 1e-5 },
-		{ { LEVEL_ISOPHOTE, { 0, 0, 1 }, -2 }, 1e-5 },
-		{ { LEVEL_PLANE, { 0, 0, 1 }, NAN }, 1e-5 },
-		{ { LEVEL_PLANE, { 0, 0, 1 }, 0.5 }, 0 },
-		{ { LEVEL_PLANE, { 0, 0, 1 }, 0.5 }, -1 },
-		{ { LEVEL_PLANE, { 0, 0, 1 }, 0.5 }, NAN },
+		{ LEVEL_ISOPHOTE, { 0, 0, 0 }, 0.5, 1e-5 },
+		{ LEVEL_ISOPHOTE, { 0, NAN, 1 }, 0.5, 1e-5 },
+		{ LEVEL_ISOPHOTE, { 0, 0, 1 }, 1.01, 1e-5 },
+		{ LEVEL_ISOPHOTE, { 0, 0, 1 }, -2, 1e-5 },
+		{ LEVEL_PLANE, { 0, 0, 1 }, NAN, 1e-5 },
+		{ LEVEL_PLANE, { 0, 0, 1 }, 0.5, 0 },
+		{ LEVEL_PLANE, { 0, 0, 1 }, 0.5, -1 },
+		{ LEVEL_PLANE, { 0, 0, 1 }, 0.5, NAN },
+		{ LEVEL_CYLINDER, { 0, 0, 1 }, 0, 1e-5 },
+		{ LEVEL_CYLINDER, { 0, 0, 0 }, 1, 1e-5 },
+		{ LEVEL_HIGHLIGHT, { 0, 0, 1 }, NAN, 1e-5 },
+		{ LEVEL_REFLECTION, { 0, 0, 0 }, 0, 1e-5 },
 	};
 	struct surface s = sphere();
 	for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
 		struct report_store store;
 		struct level *l = NULL;
 		report_store_init(&store);
-		assert_int_equal(
-		        level_create(&l, &s, &wrong[i].field, wrong[i].tolerance, &store.report),
-		        ST_PARAMETER);
+		struct level_field field = { .kind = wrong[i].kind,
+			                     .direction = wrong[i].direction,
+			                     .value = wrong[i].value };
+		assert_int_equal(level_create(&l, &s, &field, wrong[i].tolerance, &store.report),
+		                 ST_PARAMETER);
 		assert_null(l);
 		assert_int_equal(store.n_errors, 1);
 	}
@@ -732,7 +739,9 @@ static void test_blocks(void **state)
 	(void)state;
 	enum { BLOCKS = 729 };
 	struct surface s = wavy();
-	struct level_field field = { LEVEL_ISOPHOTE, { 0, 0, 1 }, cosine(35) };
+	struct level_field field = { .kind = LEVEL_ISOPHOTE,
+		                     .direction = { 0, 0, 1 },
+		                     .value = cosine(35) };
 	struct level *l;
 	struct text bytes[BLOCKS] = { { 0 } }, whole = { 0 };
 	const char *blocks[BLOCKS];

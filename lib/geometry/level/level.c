@@ -8,6 +8,21 @@
 /* Spans narrower than this part of the domain are not meant. */
 static const double narrow_share = 1e-9;
 
+const struct level_shape level_shapes[N_LEVEL_KINDS] = {
+	[LEVEL_PLANE] = { { 0, 0 }, { 1, 1 }, .line = true, .valued = true },
+	[LEVEL_ISOPHOTE] = { { 1, 2 }, { 0, 0 }, .line = true, .valued = true, .side = true },
+	[LEVEL_SILHOUETTE] = { { 1, 1 }, { 0, 0 }, .line = true },
+	[LEVEL_CYLINDER] = { { 0, 0 }, { 2, 2 }, .line = true, .valued = true, .several = true },
+	[LEVEL_EYE] = { { 1, 1 }, { 1, 1 }, .several = true },
+	[LEVEL_HIGHLIGHT] = { { 1, 2 },
+	                      { 1, 2 },
+	                      .line = true,
+	                      .valued = true,
+	                      .side = true,
+	                      .several = true },
+	[LEVEL_REFLECTION] = { { 2, 2 }, { 2, 2 }, .line = true, .several = true },
+};
+
 /* Right-handed rows of unit vectors, the last along d. */
 static void frame_make(struct vec3 d, double frame[3][3])
 {
@@ -92,6 +107,11 @@ static double *binomial_make(int n)
 	return b;
 }
 
+static int larger_order(const struct level_surface *s)
+{
+	return s->net.order[0] > s->net.order[1] ? s->net.order[0] : s->net.order[1];
+}
+
 static enum status surface_create(struct level_surface **out, const struct surface *from,
                                   const struct level_field *field)
 {
@@ -104,19 +124,25 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 	net_clean(&s->net);
 	reach_find(s);
 	s->kind = field->kind;
-	frame_make(field->direction, s->frame);
+	frame_make(level_shapes[s->kind].line ? field->direction : vec3(0, 0, 1), s->frame);
+	for (int d = 0; d < 3; d++) {
+		struct vec3 row = vec3_of(s->frame[d]);
+		s->point[d] = vec3_dot(row, field->point);
+		s->eye[d] = vec3_dot(row, field->eye);
+		s->gap[d] = vec3_dot(row, vec3_sub(field->point, field->eye));
+	}
 	int factors = s->net.rational ? 3 : 2, highest = 0;
 	for (int d = 0; d < 2; d++) {
 		s->degree[d] = factors * (s->net.order[d] - 1) - 1;
 		highest = highest > s->degree[d] ? highest : s->degree[d];
 	}
 	st = ST_RESOURCE;
-	s->binomial = binomial_make(2 * highest + 2);
+	s->binomial = binomial_make(2 * (highest + larger_order(s)));
 	s->edges[0] = calloc((size_t)(s->net.spans[0] + 1) * s->net.spans[1], 1);
 	s->edges[1] = calloc((size_t)s->net.spans[0] * (s->net.spans[1] + 1), 1);
 	if (!s->binomial || !s->edges[0] || !s->edges[1])
 		goto fail;
-	if (s->kind != LEVEL_PLANE) {
+	if (level_needs_normals(s->kind)) {
 		st = level_normals(s);
 		if (st != ST_OK)
 			goto fail;
@@ -134,25 +160,29 @@ static enum status level_set(struct level *l, const struct level_field *field, d
                              const struct report *r)
 {
 	const struct level_surface *s = l->surface;
-	bool angle = field->kind == LEVEL_ISOPHOTE;
+	const struct level_shape *shape = &level_shapes[field->kind];
+	bool angle = field->kind == LEVEL_ISOPHOTE, radius = field->kind == LEVEL_CYLINDER;
 	if (!(tolerance > 0) || !isfinite(tolerance))
 		return report_error(r, ST_PARAMETER,
 		                    "tolerance %g, expected a length greater than 0", tolerance);
-	if (!isfinite(field->value) || (angle && fabs(field->value) > 1))
+	if (!isfinite(field->value) || (angle && fabs(field->value) > 1) ||
+	    (radius && !(field->value > 0)))
 		return report_error(r, ST_PARAMETER, "level %g, expected %s", field->value,
-		                    angle ? "a cosine from -1 to 1" : "a finite number");
+		                    angle    ? "a cosine from -1 to 1"
+		                    : radius ? "a radius greater than 0"
+		                             : "a finite number");
 	l->tolerance = tolerance;
-	l->value = field->kind == LEVEL_SILHOUETTE ? 0 : field->value;
+	l->value = shape->valued ? field->value : 0;
 	if (angle && fabs(l->value) < 1e-15)
 		l->value = 0;
+	l->side = shape->side && l->value != 0;
 	l->sine = sqrt(larger(0, (1 - l->value) * (1 + l->value)));
 	for (int d = 0; d < 3; d++)
 		l->direction[d] = s->frame[2][d];
-	l->direction[3] = -l->value / vec3_length(field->direction);
+	l->direction[3] = shape->line ? -l->value / vec3_length(field->direction) : 0;
 	for (int d = 0; d < 2; d++)
-		l->degree[d] = s->kind == LEVEL_PLANE ? s->net.order[d] - 1
-		               : l->value == 0        ? s->degree[d]
-		                                      : 2 * s->degree[d];
+		l->degree[d] = shape->normal[l->value != 0] * s->degree[d] +
+		               shape->point[l->value != 0] * (s->net.order[d] - 1);
 	return ST_OK;
 }
 
@@ -179,7 +209,9 @@ enum status level_create(struct level **out, const struct surface *s,
 {
 	struct level_surface *made = NULL;
 	double length = vec3_length(field->direction);
-	if (!(length > 0) || !isfinite(length))
+	if (!isfinite(vec3_length(field->point)) || !isfinite(vec3_length(field->eye)))
+		return report_error(r, ST_PARAMETER, "a point of the field is not finite");
+	if (level_shapes[field->kind].line && (!(length > 0) || !isfinite(length)))
 		return report_error(r, ST_PARAMETER,
 		                    "direction %g,%g,%g, expected one of finite length above 0",
 		                    field->direction.x, field->direction.y, field->direction.z);
@@ -196,7 +228,9 @@ enum status level_create_like(struct level **out, const struct level *first, dou
                               const struct report *r)
 {
 	const double *d = first->direction;
-	struct level_field field = { first->surface->kind, vec3(d[0], d[1], d[2]), value };
+	struct level_field field = { .kind = first->surface->kind,
+		                     .direction = vec3(d[0], d[1], d[2]),
+		                     .value = value };
 	return level_new(out, first->surface, false, &field, first->tolerance, r);
 }
 

@@ -23,19 +23,28 @@ enum level_kind {
 	LEVEL_PLANE,      /* S . direction = value */
 	LEVEL_ISOPHOTE,   /* N . direction / |direction| = value, value in [-1, 1] */
 	LEVEL_SILHOUETTE, /* N . direction = 0 */
+	LEVEL_CYLINDER,   /* distance from the line through `point` along `direction` = value > 0 */
+	LEVEL_EYE,        /* N . (S - eye) = 0, the outline seen from a point */
+	LEVEL_HIGHLIGHT,  /* the line along N through S passes the line through `point` along
+	                     `direction` at the signed distance `value`, 0: meets it */
+	LEVEL_REFLECTION, /* the ray from `eye` that S reflects meets that line, both as whole lines */
+	N_LEVEL_KINDS
 };
 
+/* What a kind does not name is not looked at. Points and lengths in the surface's units. */
 struct level_field {
 	enum level_kind kind;
 	struct vec3 direction; /* any length but 0 */
 	double value;
+	struct vec3 point, eye;
 };
 
 struct level; /* opaque: one surface, one field, its Bezier net; read-only after create */
 
 /*
  * tolerance: largest distance in space between the fitted pieces and the exact curve, file units.
- * Errors: ST_PARAMETER (direction 0, value out of range, tolerance <= 0), ST_RESOURCE.
+ * Errors: ST_PARAMETER (direction 0, value out of range, a point that is not finite, tolerance <=
+ * 0), ST_RESOURCE.
  */
 enum status level_create(struct level **out, const struct surface *s,
                          const struct level_field *field, double tolerance, const struct report *r);

@@ -219,7 +219,6 @@ static double *scratch_at(struct tracer *t, int depth)
 static void cell_search(struct tracer *t, double *c, struct cell cell, int depth)
 {
 	int m = t->level->degree[0], n = t->level->degree[1];
-	const struct level_surface *s = t->level->surface;
 	double lo, hi;
 	if (t->failed)
 		return;
@@ -255,7 +254,7 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 		return;
 	form_split(c, m, n, d, lower);
 	if (t->n_side)
-		form_split(c + t->n_field, s->degree[0], s->degree[1], d, lower + t->n_field);
+		form_split(c + t->n_field, m / 2, n / 2, d, lower + t->n_field);
 	cell.level[d]++;
 	cell.index[d] *= 2;
 	cell_search(t, lower, cell, depth + 1);

@@ -164,9 +164,10 @@ bool level_field_make(struct tracer *t, double *out)
 {
 	const struct level *l = t->level;
 	t->own_field = false;
-	bool there = surface_of(t)->kind == LEVEL_PLANE ? plane_make(t, out)
-	             : l->value == 0                    ? silhouette_make(t, out)
-	                                                : isophote_make(t, out);
+	bool there = level_shapes[surface_of(t)->kind].several ? level_kind_make(t, out)
+	             : surface_of(t)->kind == LEVEL_PLANE      ? plane_make(t, out)
+	             : l->value == 0                           ? silhouette_make(t, out)
+	                                                       : isophote_make(t, out);
 	if (!there)
 		return false;
 	clean_sides(t, out);
@@ -184,6 +185,15 @@ void level_field_at(const struct tracer *t, double u, double v, struct field_poi
 	if (t->own_field) {
 		form_evaluate(t->field, l->degree[0], l->degree[1], u, v, &out->f, &out->fu,
 		              &out->fv);
+	} else if (level_shapes[s->kind].several) {
+		struct field_jets j = { 0 };
+		memcpy(j.x[0], x, sizeof x);
+		memcpy(j.x[1], xu, sizeof xu);
+		memcpy(j.x[2], xv, sizeof xv);
+		if (t->normals)
+			form_evaluate4(t->normals, s->degree[0], s->degree[1], u, v, j.n[0], j.n[1],
+			               j.n[2]);
+		level_kind_at(l, &j, out);
 	} else if (s->kind == LEVEL_PLANE) {
 		const double *n = l->direction;
 		out->f = n[0] * x[0] + n[1] * x[1] + n[2] * x[2] + n[3] * x[3];

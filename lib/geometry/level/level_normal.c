@@ -290,7 +290,7 @@ static enum edge_kind edge_between(struct level_surface *s, int lower, int upper
 	double gap = side_difference(&a, &b, &most);
 	if (gap > GAP_SHARE * larger(net->size, most))
 		return EDGE_GAP;
-	if (s->kind == LEVEL_PLANE)
+	if (!level_needs_normals(s->kind))
 		return gap == 0 ? EDGE_SHARED : EDGE_SMOOTH;
 	a = side_of(s->normals + level_normals_size(s) * lower, s->degree, d, true);
 	b = side_of(s->normals + level_normals_size(s) * upper, s->degree, d, false);

@@ -257,13 +257,13 @@ enum status level_patch(const struct level *l, size_t patch, struct text *out)
 	t.place[1] = t.patch % s->net.spans[1];
 	t.points = bezier_patch(&s->net, t.place[0], t.place[1]);
 	t.n_field = (size_t)(l->degree[0] + 1) * (l->degree[1] + 1);
-	if (s->kind != LEVEL_PLANE) {
+	if (s->normals)
 		t.normals = s->normals + level_normals_size(s) * patch;
-		if (l->value != 0)
-			t.n_side = level_normals_size(s) / 4;
-	}
+	if (l->side)
+		t.n_side = (size_t)(l->degree[0] / 2 + 1) * (l->degree[1] / 2 + 1);
 	t.field = level_room(&t, t.n_field);
-	t.product = level_room(&t, t.n_side + 1);
+	t.product =
+	        level_room(&t, level_shapes[s->kind].several ? level_kind_room(l) : t.n_side + 1);
 	double *c = level_room(&t, t.n_field + t.n_side);
 	if (!t.failed && level_field_make(&t, c))
 		level_search(&t, c);

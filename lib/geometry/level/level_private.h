@@ -13,7 +13,7 @@
 
 enum {
 	NORMAL_DEGREE_MAX = 3 * (ORDER_MAX - 1) - 1,
-	FIELD_DEGREE_MAX = 2 * NORMAL_DEGREE_MAX,
+	FIELD_DEGREE_MAX = 2 * (NORMAL_DEGREE_MAX + ORDER_MAX - 1),
 	CELL_DEPTH_MAX = 22, /* smallest cell: 2^-22 of a patch */
 	N_SCRATCH = 2 * CELL_DEPTH_MAX + 2,
 	LINE_BITS = 24, /* a line in a patch is a multiple of 2^-24 */
@@ -43,9 +43,10 @@ enum edge_kind {
 struct level_surface {
 	struct bezier_net net;
 	enum level_kind kind;
-	double frame[3][3]; /* rows: right-handed, the last along the direction */
-	int degree[2];      /* of the normals' components */
-	double *normals;    /* owned; a patch (degree + 1)^2 x 4, in `frame`, the fourth 0 */
+	double frame[3][3];              /* rows: right-handed, the last along the direction */
+	double point[3], eye[3], gap[3]; /* of the field, in `frame`; gap: point - eye */
+	int degree[2];                   /* of the normals' components */
+	double *normals; /* owned; a patch (degree + 1)^2 x 4, in `frame`, the fourth 0 */
 	unsigned char
 	        *edges[2];    /* owned; edges[0]: (spans[0] + 1) x spans[1], lines u = breaks[0][i];
 	                            edges[1]: spans[0] x (spans[1] + 1), lines v = breaks[1][j] */
@@ -57,8 +58,9 @@ struct level {
 	struct level_surface *surface;
 	bool owner;          /* of surface; else it belongs to the level this one is like */
 	double direction[4]; /* unit; plane: n and -d */
-	double value, sine;  /* cosine and sine of the angle */
-	int degree[2];       /* of f */
+	double value, sine;  /* isophote: cosine and sine of the angle */
+	bool side;     /* f is a difference of squares, and a condition tells which root is meant */
+	int degree[2]; /* of f */
 	double tolerance;
 };
 
@@ -79,6 +81,25 @@ static inline double larger(double a, double b)
 static inline double smaller(double a, double b)
 {
 	return a < b ? a : b;
+}
+
+static inline struct vec3 vec3_of(const double p[3])
+{
+	return vec3(p[0], p[1], p[2]);
+}
+
+/* How f is made: its degree in the normal and in X = (w S, w). */
+struct level_shape {
+	unsigned char normal[2], point[2]; /* [value is not 0] */
+	bool line, valued;                 /* has a direction; a value */
+	bool side;                         /* has a side condition where the value is not 0 */
+	bool several;                      /* is made in level_kind.c */
+};
+extern const struct level_shape level_shapes[N_LEVEL_KINDS];
+
+static inline bool level_needs_normals(enum level_kind kind)
+{
+	return level_shapes[kind].normal[1] > 0;
 }
 
 size_t level_edge(const struct level_surface *s, int d, int i, int j);
@@ -154,6 +175,7 @@ struct tracer {
 	struct list arcs, pieces, ends, undecided;
 	double *scratch[N_SCRATCH]; /* cells on the way down, one array a depth */
 	double *product;            /* room for scaled factors of a product */
+	size_t n_product;           /* used of it */
 	double *room;               /* what is left of the memory on the stack */
 	size_t n_room;
 	bool failed; /* memory ran out */
@@ -162,11 +184,22 @@ struct tracer {
 /* level_field.c: false where the patch holds no curve. `out`: f, then the side condition. */
 bool level_field_make(struct tracer *t, double *out);
 
+/* X = (w S, w) and the normal, with their derivatives in u and v. */
+struct field_jets {
+	double x[3][4], n[3][4];
+};
+
 struct field_point {
 	double f, fu, fv;
 	double p[3], su[3], sv[3];
 };
 void level_field_at(const struct tracer *t, double u, double v, struct field_point *out);
+
+/* level_kind.c: the kinds that are products of several forms. `out` receives f and the side
+ * condition; false where there is no curve. */
+bool level_kind_make(struct tracer *t, double *out);
+void level_kind_at(const struct level *l, const struct field_jets *j, struct field_point *out);
+size_t level_kind_room(const struct level *l);
 
 /* level_patch.c: n doubles, from the room or fresh; NULL: t->failed. */
 double *level_room(struct tracer *t, size_t n);
