@@ -31,11 +31,14 @@ enum status trim_add(struct trim *t, struct trim_loop *loop);
 enum status trim_loop_add(struct trim_loop *loop, struct curve *c);
 
 /*
- * Check and mend: curves put in order and direction, gaps up to `tolerance` (in space, file units)
- * closed, loops that run outside the domain by rounding brought back, loops over the seam of a
- * closed surface cut there, curves that are the domain's border recognised. What was mended is
- * said as a note; what cannot be is an error and leaves *t as it was.
- * Errors: ST_INPUT (a loop not closed, leaving the domain, crossing itself), ST_RESOURCE.
+ * Check and mend: curves put in order and direction (outer loops counter-clockwise, inner ones
+ * clockwise), gaps up to `tolerance` (in space, file units) closed, what runs along the domain's
+ * border or leaves it by less than the tolerance laid on it, loops over the seam of a closed surface
+ * cut there. A loop that winds around a closed surface leaves what is on its left; two of them
+ * leave what lies between. What was mended is said as a note; what cannot be is an error and leaves
+ * *t as it was. That a loop does not cross itself is not checked; if it does, what it goes around
+ * an odd number of times is inside. `what` names the face.
+ * Errors: ST_INPUT (a loop not closed, leaving the domain), ST_RESOURCE.
  */
 enum status trim_mend(struct trim *t, const struct surface *s, double tolerance, const char *what,
                       const struct report *r);
@@ -45,7 +48,8 @@ struct trim_test;
 enum status trim_test_create(struct trim_test **out, const struct trim *t, const struct surface *s);
 void trim_test_destroy(struct trim_test *x); /* NULL is fine */
 
-/* Is (u, v) left? Exact but for points nearer to a loop than 1e-12 of the domain. */
+/* Is (u, v) left? Exact but for points nearer to a loop than 1e-12 of the domain. Where a loop runs
+ * along the domain's border, points of the border are as those inside beside them. */
 bool trim_test_inside(const struct trim_test *x, double u, double v);
 
 /* For boxes of parameters: 1 wholly inside, -1 wholly outside, 0 a loop runs through. */

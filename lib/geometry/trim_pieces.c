@@ -383,3 +383,57 @@ double trim_piece_find(const struct trim_piece *p, int c, double value)
 	}
 	return t;
 }
+
+/* Crossings of one Bezier span with one line, from *found on. */
+static void span_crossings(const double *p, int order, int d, double line, double a, double b,
+                           double *turns, int *found)
+{
+	double off[ORDER_MAX], rise = 0;
+	for (int i = 0; i < order; i++) {
+		off[i] = p[4 * i + d] - line * p[4 * i + 3];
+		rise = fmax(rise, fabs(off[i]));
+	}
+	for (int i = 0; i < order; i++)
+		if (fabs(off[i]) <= flat * rise)
+			off[i] = 0;
+	turns_between(off, order, a, b, 0, turns, found);
+	/* perhaps it crosses at the joint with the next span */
+	if (off[order - 1] == 0 && *found < TURNS_MAX)
+		turns[(*found)++] = b;
+}
+
+enum status trim_curve_crossings(const struct curve *c, int d, double base, double step,
+                                 double **at, int *n)
+{
+	struct bezier_chain chain;
+	*at = NULL;
+	*n = 0;
+	if (bezier_chain_init(&chain, c) != ST_OK)
+		return ST_RESOURCE;
+	enum status st = ST_OK;
+	for (int i = 0; i < chain.spans && st == ST_OK; i++) {
+		const double *p = chain.points + (size_t)4 * chain.order * i;
+		double lo = INFINITY, hi = -INFINITY;
+		for (int j = 0; j < chain.order; j++) {
+			lo = fmin(lo, (p[4 * j + d] / p[4 * j + 3] - base) / step);
+			hi = fmax(hi, (p[4 * j + d] / p[4 * j + 3] - base) / step);
+		}
+		/* beyond some periods it is no loop of this surface */
+		for (double k = fmax(ceil(lo), -8); k <= fmin(floor(hi), 8); k++) {
+			double *more = reallocarray(*at, (size_t)*n + TURNS_MAX, sizeof *more);
+			if (!more) {
+				st = ST_RESOURCE;
+				break;
+			}
+			*at = more;
+			int found = 0;
+			span_crossings(p, chain.order, d, base + k * step, chain.breaks[i],
+			               chain.breaks[i + 1], more + *n, &found);
+			*n += found;
+		}
+	}
+	bezier_chain_finish(&chain);
+	if (st == ST_OK && *n)
+		qsort(*at, *n, sizeof **at, compare);
+	return st;
+}

@@ -40,6 +40,11 @@ void trim_piece_point(const struct trim_piece *p, double t, double uv[2], double
 /* t where coordinate c (0: u, 1: v) has that value; 0 or 1 where it lies beyond an end. */
 double trim_piece_find(const struct trim_piece *p, int c, double value);
 
+/* Parameters, rising, where coordinate d of a curve crosses base + k step for any whole k; *at is
+ * fresh. Errors: ST_RESOURCE. */
+enum status trim_curve_crossings(const struct curve *c, int d, double base, double step,
+                                 double **at, int *n);
+
 struct trim_test {
 	struct trim_pieces pieces; /* owned */
 	double domain[2][2];
