@@ -95,6 +95,8 @@ static enum status blocks_read(struct joint *j, const char *const *blocks, const
 	int last = -1;
 	j->n_strands = j->n_pieces = 0;
 	for (size_t i = 0; i < n_blocks; i++) {
+		if (!sizes[i])
+			continue;
 		const char *at = blocks[i], *end = at + sizes[i];
 		while (at < end) {
 			struct patch_header h;
