@@ -10,7 +10,7 @@
 #include <sisl.h>
 #endif
 
-#include "grid.h"
+#include "batch.h"
 #include "parallel.h"
 #include "shapes.h"
 
@@ -102,6 +102,18 @@ static void our_shapes(struct bench *b)
 		surface_shape(&b->s, b->uv[2 * i], b->uv[2 * i + 1], &p);
 		b->check += p.value[QUANTITY_GAUSSIAN];
 	}
+}
+
+static void our_batch(struct bench *b)
+{
+	if (surface_shapes(&b->s, b->uv, RANDOM,
+	                   GRID_BIT(QUANTITY_GAUSSIAN) | GRID_BIT(QUANTITY_MEAN) |
+	                           GRID_BIT(QUANTITY_KMAX) | GRID_BIT(QUANTITY_KMIN),
+	                   b->out) != ST_OK)
+		exit(1);
+	b->check = 0;
+	for (int i = 0; i < RANDOM; i++)
+		b->check += b->out[QUANTITY_GAUSSIAN][i];
 }
 
 #ifdef HAVE_SISL
@@ -342,6 +354,8 @@ int main(void)
 		              our_random, peer_random);
 		compare_rates("random curvatures, a call each", &b, RANDOM, shape_target[k],
 		              our_shapes, peer_shapes);
+		compare_rates("random curvatures, one batch", &b, RANDOM, shape_target[k],
+		              our_batch, peer_shapes);
 		bench_finish(&b);
 	}
 	compare_errors("sphere", shape_sphere(2.5), 3e-13, exact_sphere);
