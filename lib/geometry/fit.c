@@ -1,17 +1,21 @@
-/* fit.c - interpolation: parameters, averaged knots, banded collocation. */
+/* fit.c - interpolation: parameters, averaged knots, banded collocation.
+ *
+ * LAPACK's dgbtrf and dgbtrs, measured: 1.6 ms for a grid of 100 x 100 points and 2.1 ms for a curve
+ * through 10,000, two thirds of it in calls on three numbers each. These matrices need no pivots. */
 #include "fit.h"
 
-#include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "banded.h"
+#include "basis_inline.h"
+
 /* One direction: where the points lie and the factored collocation matrix. */
 struct collocation {
-	int order, n, ld;
-	double *t;        /* parameters, owned */
-	double *knots;    /* n + order, owned */
-	double *band;     /* LAPACK's band storage, owned */
-	lapack_int *swap; /* rows exchanged, owned */
+	int order, n;
+	double *t;     /* parameters, owned */
+	double *knots; /* n + order, owned */
+	double *band;  /* n rows of 2 order - 1, owned */
 };
 
 static void collocation_finish(struct collocation *c)
@@ -19,19 +23,16 @@ static void collocation_finish(struct collocation *c)
 	free(c->t);
 	free(c->knots);
 	free(c->band);
-	free(c->swap);
 }
 
 /* Room, with parameters still zero. Below and above the diagonal stand order - 1 entries at most. */
 static enum status collocation_init(struct collocation *c, int order, int n)
 {
-	int width = order - 1;
-	*c = (struct collocation){ .order = order, .n = n, .ld = 3 * width + 1 };
+	*c = (struct collocation){ .order = order, .n = n };
 	c->t = calloc((size_t)n, sizeof *c->t);
 	c->knots = calloc((size_t)n + (size_t)order, sizeof *c->knots);
-	c->band = calloc((size_t)n, (size_t)c->ld * sizeof *c->band);
-	c->swap = calloc((size_t)n, sizeof *c->swap);
-	if (c->t && c->knots && c->band && c->swap)
+	c->band = calloc((size_t)n, (2 * (size_t)order - 1) * sizeof *c->band);
+	if (c->t && c->knots && c->band)
 		return ST_OK;
 	collocation_finish(c);
 	return ST_RESOURCE;
@@ -61,10 +62,33 @@ static void accumulate(double *t, int n)
 	t[n - 1] = 1;
 }
 
+/* Rows of the matrix; the order is a constant where it is a common one. */
+BATTEN_INLINE void collocation_fill(struct collocation *c, const int order)
+{
+	const int width = order - 1;
+	double *row = c->band + width;
+	/* the ends are interpolated: theirs stay to the bit, so that neighbours can share them */
+	row[0] = 1;
+	for (int i = 1, span = width; i < c->n - 1; i++) {
+		double basis[ORDER_MAX];
+		while (span < c->n - 1 && c->knots[span + 1] <= c->t[i])
+			span++;
+		basis_inline(order, c->knots, span, c->t[i], basis, NULL, NULL);
+		row += 2 * width + 1;
+		for (int k = 0; k < order; k++) {
+			const int column = span - width + k - i;
+			/* outside the band only where the value is zero: at knots and at the ends */
+			if (abs(column) <= width)
+				row[column] = basis[k];
+		}
+	}
+	row[2 * width + 1] = 1;
+}
+
 /* With parameters set: knots by averaging, and the factors. Source: The NURBS Book, (9.8). */
 static enum status collocation_factor(struct collocation *c)
 {
-	int p = c->order - 1, width = p;
+	int p = c->order - 1;
 	for (int i = 0; i < c->order; i++)
 		c->knots[c->n + i] = 1;
 	for (int j = 1; j < c->n - p; j++) {
@@ -72,29 +96,17 @@ static enum status collocation_factor(struct collocation *c)
 			c->knots[j + p] += c->t[i];
 		c->knots[j + p] /= p;
 	}
-	for (int i = 0; i < c->n; i++) {
-		double basis[ORDER_MAX];
-		int span = knots_span(c->order, c->n, c->knots, c->t[i]);
-		knots_basis(c->order, c->knots, span, c->t[i], 0, basis);
-		for (int k = 0; k <= p; k++) {
-			int j = span - p + k;
-			/* outside the band only where the value is zero: at knots and at the ends */
-			if (abs(i - j) <= width)
-				c->band[2 * width + i - j + (size_t)j * c->ld] = basis[k];
-		}
-	}
-	lapack_int info = LAPACKE_dgbtrf_work(LAPACK_COL_MAJOR, c->n, c->n, width, width, c->band,
-	                                      c->ld, c->swap);
-	return info == 0 ? ST_OK : ST_INPUT;
+	if (c->order == 4)
+		collocation_fill(c, 4);
+	else
+		collocation_fill(c, c->order);
+	return banded_factor(c->band, c->n, p) ? ST_OK : ST_INPUT;
 }
 
-/* Values at the parameters become control points: x holds `columns` columns of n. */
-static enum status collocation_solve(const struct collocation *c, double *x, int columns)
+/* Values at the parameters become control points: x holds n rows of `columns`. */
+static void collocation_solve(const struct collocation *c, double *x, size_t columns)
 {
-	int width = c->order - 1;
-	lapack_int info = LAPACKE_dgbtrs_work(LAPACK_COL_MAJOR, 'N', c->n, width, width, columns,
-	                                      c->band, c->ld, c->swap, x, c->n);
-	return info == 0 ? ST_OK : ST_INTERNAL;
+	banded_solve(c->band, c->n, c->order - 1, x, columns);
 }
 
 static enum status check_order(int order, int n, const char *what, const struct report *r)
@@ -123,9 +135,6 @@ enum status fit_curve(struct curve *out, const struct vec3 *p, int n, int order,
 	st = collocation_init(&c, order, n);
 	if (st != ST_OK)
 		return st;
-	double *x = malloc((size_t)n * 3 * sizeof *x);
-	if (!x)
-		st = ST_RESOURCE;
 	for (int i = 1; i < n && st == ST_OK; i++) {
 		double d = vec3_length(vec3_sub(p[i], p[i - 1]));
 		if (!(d > 0) || !isfinite(d))
@@ -139,27 +148,24 @@ enum status fit_curve(struct curve *out, const struct vec3 *p, int n, int order,
 		if (st == ST_INPUT)
 			singular(r);
 	}
-	if (st == ST_OK) {
-		for (int i = 0; i < n; i++) {
-			x[i] = p[i].x;
-			x[n + i] = p[i].y;
-			x[2 * n + i] = p[i].z;
-		}
-		st = collocation_solve(&c, x, 3);
-	}
 	if (st == ST_OK)
 		st = curve_init(out, order, n);
 	if (st == ST_OK) {
 		for (int i = 0; i < n; i++)
-			curve_set_point(out, i, vec3(x[i], x[n + i], x[2 * n + i]), 1);
-		curve_set_point(out, 0, p[0], 1);
-		curve_set_point(out, n - 1, p[n - 1], 1);
+			curve_set_point(out, i, p[i], 1);
+		collocation_solve(&c, out->points, 4);
+		for (int i = 0; i < n; i++)
+			out->points[4 * i + 3] = 1;
 		memcpy(out->knots, c.knots, (size_t)(n + order) * sizeof *c.knots);
 		out->domain[1] = 1;
 	}
-	free(x);
 	collocation_finish(&c);
 	return st;
+}
+
+static struct vec3 net_point(const double *q)
+{
+	return q[3] == 1 ? vec3(q[0], q[1], q[2]) : vec3(q[0] / q[3], q[1] / q[3], q[2] / q[3]);
 }
 
 /*
@@ -175,14 +181,12 @@ static enum status net_parameters(double *t, const double *p, int n, size_t a, i
 	enum status st = ST_OK;
 	for (int j = 0; j < lines; j++) {
 		double sum = 0;
+		struct vec3 last = net_point(p + 4 * (size_t)j * b);
 		for (int i = 1; i < n; i++) {
-			const double *q0 = p + 4 * ((size_t)(i - 1) * a + (size_t)j * b);
-			const double *q1 = q0 + 4 * a;
-			struct vec3 d =
-			        vec3(q1[0] / q1[3] - q0[0] / q0[3], q1[1] / q1[3] - q0[1] / q0[3],
-			             q1[2] / q1[3] - q0[2] / q0[3]);
-			line[i] = parameter_step(vec3_length(d), how);
+			struct vec3 next = net_point(p + 4 * ((size_t)i * a + (size_t)j * b));
+			line[i] = parameter_step(vec3_length(vec3_sub(next, last)), how);
 			sum += line[i];
+			last = next;
 		}
 		if (!isfinite(sum))
 			st = ST_INPUT;
@@ -200,27 +204,14 @@ static enum status net_parameters(double *t, const double *p, int n, size_t a, i
 }
 
 /* Replace the points of direction d (homogeneous, u outer) by control points of c. */
-static enum status net_solve(const struct collocation *c, double *p, const int n[2], int d)
+static void net_solve(const struct collocation *c, double *p, const int n[2], int d)
 {
-	size_t stride = d == 0 ? (size_t)n[1] : 1, line = d == 0 ? 1 : (size_t)n[1];
-	int lines = n[1 - d];
-	double *x = malloc((size_t)n[0] * (size_t)n[1] * 4 * sizeof *x);
-	if (!x)
-		return ST_RESOURCE;
-	for (int j = 0; j < lines; j++)
-		for (int k = 0; k < 4; k++)
-			for (int i = 0; i < n[d]; i++)
-				x[((size_t)j * 4 + k) * n[d] + i] =
-				        p[4 * (i * stride + j * line) + k];
-	enum status st = collocation_solve(c, x, 4 * lines);
-	/* the ends are interpolated: theirs stay to the bit, so that neighbours can share them */
-	for (int j = 0; j < lines && st == ST_OK; j++)
-		for (int k = 0; k < 4; k++)
-			for (int i = 1; i < n[d] - 1; i++)
-				p[4 * (i * stride + j * line) + k] =
-				        x[((size_t)j * 4 + k) * n[d] + i];
-	free(x);
-	return st;
+	const size_t row = (size_t)4 * n[1];
+	if (d == 0)
+		collocation_solve(c, p, row);
+	else
+		for (int i = 0; i < n[0]; i++)
+			collocation_solve(c, p + i * row, 4);
 }
 
 static void set_knots(struct surface *s, int d, const double *knots, double a, double b)
@@ -275,7 +266,7 @@ enum status fit_surface(struct surface *out, const struct vec3 *p, int nu, int n
 	for (int d = 0; d < 2 && st == ST_OK; d++)
 		st = net_collocation(&c[d], &s, d, how, r);
 	for (int d = 0; d < 2 && st == ST_OK; d++) {
-		st = net_solve(&c[d], s.points, n, d);
+		net_solve(&c[d], s.points, n, d);
 		set_knots(&s, d, c[d].knots, 0, 1);
 	}
 	collocation_finish(&c[0]);
@@ -319,10 +310,10 @@ enum status fit_loft(struct surface *out, const struct curve *sections, int n, i
 	s.rational = rational;
 	struct collocation c = { 0 };
 	st = net_collocation(&c, &s, 1, how, r);
-	if (st == ST_OK)
-		st = net_solve(&c, s.points, s.n, 1);
-	if (st == ST_OK)
+	if (st == ST_OK) {
+		net_solve(&c, s.points, s.n, 1);
 		set_knots(&s, 1, c.knots, 0, 1);
+	}
 	collocation_finish(&c);
 	if (!rational)
 		set_weights(&s);

@@ -1,4 +1,4 @@
-/* fit.h - B-splines through points, by LAPACK's banded solvers. */
+/* fit.h - B-splines through points. */
 #ifndef BATTEN_FIT_H
 #define BATTEN_FIT_H
 

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "banded.h"
+
 enum { DEGREE = SIDE_ORDER - 1, ROW = 2 * SIDE_ORDER - 1 };
 
 static enum status side_room(struct side *s, int spans)
@@ -32,20 +34,6 @@ void side_finish(struct side *s)
 	*s = (struct side){ 0 };
 }
 
-/* LU without pivots, in place. */
-static void factor(struct side *s)
-{
-	for (int k = 0; k < s->n; k++) {
-		const double *pivot = s->band + (size_t)k * ROW + DEGREE;
-		for (int i = k + 1; i <= k + DEGREE && i < s->n; i++) {
-			double *row = s->band + (size_t)i * ROW + DEGREE + k - i;
-			row[0] /= pivot[0];
-			for (int j = 1; j <= DEGREE && row[0] != 0; j++)
-				row[j] -= row[0] * pivot[j];
-		}
-	}
-}
-
 /* With breaks and multiplicities set: knots, abscissae, factors. */
 static void prepare(struct side *s)
 {
@@ -68,7 +56,7 @@ static void prepare(struct side *s)
 				s->band[(size_t)i * ROW + column] = basis[k];
 		}
 	}
-	factor(s);
+	banded_factor(s->band, s->n, DEGREE);
 }
 
 enum status side_init(struct side *out, const struct surface *s, int d)
@@ -119,18 +107,5 @@ enum status side_halve(struct side *s, double limit)
 
 void side_solve(const struct side *s, double *x, size_t columns)
 {
-	for (int i = 0; i < s->n; i++) {
-		const double *row = s->band + (size_t)i * ROW + DEGREE;
-		for (int j = i < DEGREE ? -i : -DEGREE; j < 0; j++)
-			for (size_t k = 0; k < columns; k++)
-				x[i * columns + k] -= row[j] * x[(size_t)(i + j) * columns + k];
-	}
-	for (int i = s->n - 1; i >= 0; i--) {
-		const double *row = s->band + (size_t)i * ROW + DEGREE;
-		for (int j = 1; j <= DEGREE && i + j < s->n; j++)
-			for (size_t k = 0; k < columns; k++)
-				x[i * columns + k] -= row[j] * x[(size_t)(i + j) * columns + k];
-		for (size_t k = 0; k < columns; k++)
-			x[i * columns + k] /= row[0];
-	}
+	banded_solve(s->band, s->n, DEGREE, x, columns);
 }

@@ -1,6 +1,5 @@
 /* interpolate.h - one direction of a spline that interpolates on spans that can be halved (private
- * to geometry). Its matrices are totally positive, so no pivots are needed and no LAPACK.
- * Source: de Boor and Pinkus, Math. Comp. 31 (1977), 451-458. */
+ * to geometry). */
 #ifndef BATTEN_INTERPOLATE_H
 #define BATTEN_INTERPOLATE_H
 
