@@ -47,6 +47,9 @@ static void surface_destroy(struct level_surface *s)
 	free(s->normals);
 	free(s->edges[0]);
 	free(s->edges[1]);
+	free(s->bent[0]);
+	free(s->bent[1]);
+	free(s->normal_error);
 	free(s->binomial);
 	free(s);
 }
@@ -85,14 +88,23 @@ static void net_clean(struct bezier_net *net)
 	}
 }
 
-static void reach_find(struct level_surface *s)
+/*
+ * Bezier points are means of the control points, taken in each direction by a matrix: its numbers are
+ * products of order - 1 ratios of knots, all positive, and so right to that many roundings each.
+ */
+static void reach_find(struct level_surface *s, const struct surface *from)
 {
-	const double *p = s->net.points;
-	size_t n = bezier_patch_size(&s->net) / 4 * s->net.spans[0] * s->net.spans[1];
-	for (size_t i = 0; i < n; i++, p += 4) {
-		s->reach = larger(s->reach, sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]));
-		s->weight = larger(s->weight, p[3]);
-	}
+	for (int i = 0; i < from->n[0]; i++)
+		for (int j = 0; j < from->n[1]; j++) {
+			double w;
+			struct vec3 p = surface_get_point(from, i, j, &w);
+			s->reach = larger(s->reach, w * vec3_length(p));
+			s->weight = larger(s->weight, w);
+		}
+	double steps = 8.0 * (from->order[0] + from->order[1]) * UNIT_ROUNDOFF;
+	s->of_points = (struct bound){ s->reach * (1 + steps), s->reach * steps };
+	s->of_weights =
+	        (struct bound){ s->weight * (1 + steps), s->net.rational ? s->weight * steps : 0 };
 }
 
 static double *binomial_make(int n)
@@ -122,7 +134,7 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 	if (st != ST_OK)
 		goto fail;
 	net_clean(&s->net);
-	reach_find(s);
+	reach_find(s, from);
 	s->kind = field->kind;
 	frame_make(level_shapes[s->kind].line ? field->direction : vec3(0, 0, 1), s->frame);
 	for (int d = 0; d < 3; d++) {
@@ -138,9 +150,12 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 	}
 	st = ST_RESOURCE;
 	s->binomial = binomial_make(2 * (highest + larger_order(s)));
-	s->edges[0] = calloc((size_t)(s->net.spans[0] + 1) * s->net.spans[1], 1);
-	s->edges[1] = calloc((size_t)s->net.spans[0] * (s->net.spans[1] + 1), 1);
-	if (!s->binomial || !s->edges[0] || !s->edges[1])
+	for (int d = 0; d < 2; d++) {
+		int lines[2] = { s->net.spans[0] + (d == 0), s->net.spans[1] + (d == 1) };
+		s->edges[d] = calloc((size_t)lines[0] * lines[1], 1);
+		s->bent[d] = calloc((size_t)lines[0] * lines[1], 1);
+	}
+	if (!s->binomial || !s->edges[0] || !s->edges[1] || !s->bent[0] || !s->bent[1])
 		goto fail;
 	if (level_needs_normals(s->kind)) {
 		st = level_normals(s);

@@ -30,12 +30,12 @@ static void undecided_add(struct tracer *t, const struct cell *cell, bool flat)
 }
 
 /* All differences in direction d are beyond rounding and of one sign. */
-static enum monotone monotone_in(const struct tracer *t, const double *c, int d)
+static enum monotone monotone_in(const struct tracer *t, const double *c, int d, double error)
 {
 	int m = t->level->degree[0], n = t->level->degree[1];
 	size_t step = d == 0 ? (size_t)n + 1 : 1;
 	int rows = d == 0 ? m : m + 1, columns = d == 0 ? n + 1 : n;
-	double least = ROUNDING_SHARE * t->scale;
+	double least = 2.0001 * error;
 	bool rising = true, falling = true;
 	for (int i = 0; i < rows && (rising || falling); i++) {
 		const double *x = c + (size_t)i * (n + 1);
@@ -194,7 +194,8 @@ static void arcs_find(const struct graph *g)
 static bool cell_decide(struct tracer *t, const struct cell *cell, const double *c)
 {
 	int m = t->level->degree[0], n = t->level->degree[1];
-	enum monotone in[2] = { monotone_in(t, c, 0), monotone_in(t, c, 1) };
+	enum monotone in[2] = { monotone_in(t, c, 0, cell->error),
+		                monotone_in(t, c, 1, cell->error) };
 	if (!in[0] && !in[1])
 		return false;
 	int d = in[0] ? 0 : 1;
@@ -223,18 +224,19 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 	if (t->failed)
 		return;
 	form_range(c, t->n_field, &lo, &hi);
-	if (larger(-lo, hi) <= ZERO_SHARE * t->scale) {
+	double most = larger(-lo, hi);
+	if (most <= ZERO_SHARE * t->bound.size || most <= cell.error) {
 		undecided_add(t, &cell, true);
 		return;
 	}
-	if (lo > ROUNDING_SHARE * t->scale || hi < -ROUNDING_SHARE * t->scale)
+	if (lo > cell.error || hi < -cell.error)
 		return;
 	bool one_side = true;
 	if (t->n_side) {
 		form_range(c + t->n_field, t->n_side, &lo, &hi);
-		if (hi < 0)
+		if (hi < -t->side_error)
 			return;
-		one_side = lo >= 0;
+		one_side = lo > t->side_error;
 	}
 	if (one_side && cell_decide(t, &cell, c))
 		return;
@@ -255,6 +257,8 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 	form_split(c, m, n, d, lower);
 	if (t->n_side)
 		form_split(c + t->n_field, m / 2, n / 2, d, lower + t->n_field);
+	/* as many means are taken one after another */
+	cell.error += (d == 0 ? m : n) * UNIT_ROUNDOFF * most;
 	cell.level[d]++;
 	cell.index[d] *= 2;
 	cell_search(t, lower, cell, depth + 1);
@@ -264,5 +268,9 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 
 void level_search(struct tracer *t, double *c)
 {
-	cell_search(t, c, (struct cell){ 0 }, 0);
+	int degree = t->level->degree[0] + t->level->degree[1];
+	if (t->n_side)
+		t->side_error += CELL_DEPTH_MAX * degree * UNIT_ROUNDOFF *
+		                 form_most(c + t->n_field, t->n_side);
+	cell_search(t, c, (struct cell){ .error = t->bound.error }, 0);
 }

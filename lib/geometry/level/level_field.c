@@ -22,14 +22,15 @@ static bool cone_excludes(const struct tracer *t, size_t count)
 {
 	const double c = fabs(t->level->value), s = t->level->sine;
 	const double sign = t->level->value < 0 ? -1 : 1;
+	const double error = 3 * surface_of(t)->normal_error[t->patch];
 	double mx = 0, my = 0;
 	bool inside = true;
 	for (size_t i = 0; i < count; i++) {
 		const double *n = t->normals + 4 * i;
-		double z = sign * n[2];
+		double z = s * sign * n[2] - error;
 		mx += n[0];
 		my += n[1];
-		if (!(z > 0 && s * s * z * z > c * c * (n[0] * n[0] + n[1] * n[1]) * (1 + 1e-12)))
+		if (!(z > 0 && z * z > c * c * (n[0] * n[0] + n[1] * n[1]) * (1 + 1e-12)))
 			inside = false;
 	}
 	if (inside)
@@ -42,10 +43,20 @@ static bool cone_excludes(const struct tracer *t, size_t count)
 	for (size_t i = 0; i < count; i++) {
 		const double *n = t->normals + 4 * i;
 		double beyond = mx * n[0] + my * n[1] - sign * s * n[2];
-		if (!(beyond > 1e-12 * (fabs(n[0]) + fabs(n[1]) + fabs(n[2]))))
+		if (!(beyond > error + 1e-12 * (fabs(n[0]) + fabs(n[1]) + fabs(n[2]))))
 			return false;
 	}
 	return true;
+}
+
+struct bound level_normal_bound(const struct tracer *t)
+{
+	const struct level_surface *s = surface_of(t);
+	struct bound b = { 0, s->normal_error[t->patch] };
+	double lo, hi;
+	form_range(t->normals, level_normals_size(s), &lo, &hi);
+	b.size = larger(-lo, hi);
+	return b;
 }
 
 static bool isophote_make(struct tracer *t, double *out)
@@ -53,14 +64,13 @@ static bool isophote_make(struct tracer *t, double *out)
 	const struct level_surface *s = surface_of(t);
 	int m = s->degree[0], n = s->degree[1];
 	size_t count = (size_t)(m + 1) * (n + 1);
-	double c = t->level->value, sine = t->level->sine, scale = 0;
+	double c = t->level->value, sine = t->level->sine;
 	if (cone_excludes(t, count))
 		return false;
-	for (size_t i = 0; i < count; i++) {
-		const double *p = t->normals + 4 * i;
-		scale = larger(scale, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-	}
-	t->scale = scale;
+	struct bound normal = level_normal_bound(t);
+	struct bound square = bound_product(normal, normal, 2 * m, 2 * n);
+	t->bound = bound_sum(bound_sum(square, c * c, square), c * c, square);
+	t->side_error = normal.error;
 	memset(out, 0, sizeof *out * t->n_field);
 	for (int k = 0; k < 3; k++) {
 		for (size_t i = 0; i < count; i++)
@@ -76,13 +86,9 @@ static bool isophote_make(struct tracer *t, double *out)
 
 static bool silhouette_make(struct tracer *t, double *out)
 {
-	double scale = 0;
-	for (size_t i = 0; i < t->n_field; i++) {
-		const double *p = t->normals + 4 * i;
-		out[i] = p[2];
-		scale = larger(scale, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-	}
-	t->scale = sqrt(scale);
+	for (size_t i = 0; i < t->n_field; i++)
+		out[i] = t->normals[4 * i + 2];
+	t->bound = level_normal_bound(t);
 	return true;
 }
 
@@ -94,8 +100,17 @@ static bool plane_make(struct tracer *t, double *out)
 		const double *p = t->points + 4 * i;
 		out[i] = n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + n[3] * p[3];
 	}
-	t->scale = s->reach + fabs(n[3]) * s->weight;
+	/* a unit vector times a point's error; the sum of four and the vector's own rounding */
+	t->bound.size = s->of_points.size + fabs(n[3]) * s->of_weights.size;
+	t->bound.error = 2 * s->of_points.error + fabs(n[3]) * s->of_weights.error +
+	                 12 * UNIT_ROUNDOFF * t->bound.size;
 	return true;
+}
+
+/* What f may be and counts as zero. */
+static double zero_of(const struct tracer *t)
+{
+	return larger(ZERO_SHARE * t->bound.size, t->bound.error);
 }
 
 /* Coefficients of f on a side of the patch, or `inset` rows inside of it: the first, the step, how
@@ -115,7 +130,7 @@ static struct row row_of(const struct tracer *t, int d, bool upper, size_t inset
 static bool row_is_zero(const struct tracer *t, const double *c, struct row r)
 {
 	for (size_t i = 0; i < r.n; i++)
-		if (fabs(c[r.first + r.step * i]) > ZERO_SHARE * t->scale)
+		if (fabs(c[r.first + r.step * i]) > zero_of(t))
 			return false;
 	return true;
 }
@@ -137,6 +152,7 @@ static void take_out_pole(struct tracer *t, double *c, int d, bool upper)
 	form_scale(c, m, n, s->binomial, false);
 	form_divide(c, m, n, d, upper);
 	form_scale(c, m, n, s->binomial, true);
+	t->bound.error *= (d == 0 ? m : n) + 1;
 	t->own_field = true;
 }
 

@@ -7,6 +7,7 @@
 #include "level_form.h"
 #include "level_private.h"
 
+#include <math.h>
 #include <string.h>
 
 WIDE void form_product(const double *a, int am, int an, const double *b, int bm, int bn,
@@ -100,6 +101,31 @@ WIDE void form_range(const double *c, size_t count, double *lo, double *hi)
 	}
 	*lo = least;
 	*hi = most;
+}
+
+double form_most(const double *c, size_t count)
+{
+	double lo, hi;
+	form_range(c, count, &lo, &hi);
+	return larger(-lo, hi);
+}
+
+struct bound bound_sum(struct bound a, double weight, struct bound b)
+{
+	double size = a.size + fabs(weight) * b.size;
+	return (struct bound){ size, a.error + fabs(weight) * b.error + 8 * UNIT_ROUNDOFF * size };
+}
+
+struct bound bound_product(struct bound a, struct bound b, int m, int n)
+{
+	/* A coefficient is a mean of products, whose numbers are the binomials over each other: it
+	 * is not larger than the largest product. At most (m / 2 + 1) (n / 2 + 1) are summed, each
+	 * number was scaled, binomials are sums themselves. */
+	double steps = (m / 2 + 1.0) * (n / 2 + 1.0) + m + n + 10;
+	struct bound r = { a.size * b.size, 0 };
+	r.error = a.error * b.size + a.size * b.error + a.error * b.error +
+	          steps * UNIT_ROUNDOFF * r.size;
+	return r;
 }
 
 /* Bernstein polynomials of degree n and their derivatives. Inlined for the common degrees. */

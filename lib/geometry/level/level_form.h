@@ -29,6 +29,26 @@ void form_split(double *c, int m, int n, int d, double *lower);
 
 void form_range(const double *c, size_t count, double *lo, double *hi);
 
+/*
+ * What is known of a form's coefficients (those not scaled): none is larger than `size`, none
+ * further than `error` from the exact one. Outward: what computing these two rounds off is less
+ * than the places where they are generous.
+ * Source: Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., chapter 3.
+ */
+struct bound {
+	double size, error;
+};
+
+#define UNIT_ROUNDOFF 1.1102230246251565e-16
+
+struct bound bound_sum(struct bound a, double weight, struct bound b);
+
+/* Of a product of degrees m x n, as form_product makes it from scaled forms, and scaled back. */
+struct bound bound_product(struct bound a, struct bound b, int m, int n);
+
+/* Largest coefficient. */
+double form_most(const double *c, size_t count);
+
 /* Value and derivatives. */
 void form_evaluate(const double *c, int m, int n, double u, double v, double *f, double *fu,
                    double *fv);

@@ -21,9 +21,10 @@
 struct form {
 	double *c;
 	int m, n;
+	struct bound b; /* of the coefficients before scaling */
 };
 
-static size_t form_size(int m, int n)
+static size_t form_count(int m, int n)
 {
 	return (size_t)(m + 1) * (n + 1);
 }
@@ -31,16 +32,23 @@ static size_t form_size(int m, int n)
 /* One more, zero; level_kind_room counts them. */
 static struct form form_new(struct tracer *t, int m, int n)
 {
-	struct form f = { t->product + t->n_product, m, n };
-	t->n_product += form_size(m, n);
-	memset(f.c, 0, sizeof *f.c * form_size(m, n));
+	struct form f = { t->product + t->n_product, m, n, { 0, 0 } };
+	t->n_product += form_count(m, n);
+	memset(f.c, 0, sizeof *f.c * form_count(m, n));
 	return f;
 }
 
 /* out += weight a b */
-static void add_product(struct form out, struct form a, struct form b, double weight)
+static void add_product(struct form *out, struct form a, struct form b, double weight)
 {
-	form_product(a.c, a.m, a.n, b.c, b.m, b.n, weight, out.c);
+	form_product(a.c, a.m, a.n, b.c, b.m, b.n, weight, out->c);
+	out->b = bound_sum(out->b, weight, bound_product(a.b, b.b, out->m, out->n));
+}
+
+static void add_square(struct form *out, struct form a, double weight)
+{
+	form_square(a.c, a.m, a.n, weight, out->c);
+	out->b = bound_sum(out->b, weight, bound_product(a.b, a.b, out->m, out->n));
 }
 
 /* The normal's component d. */
@@ -48,10 +56,20 @@ static struct form normal_form(struct tracer *t, int d)
 {
 	const struct level_surface *s = t->level->surface;
 	struct form f = form_new(t, s->degree[0], s->degree[1]);
-	for (size_t i = 0; i < form_size(f.m, f.n); i++)
+	for (size_t i = 0; i < form_count(f.m, f.n); i++)
 		f.c[i] = t->normals[4 * i + d];
+	f.b = (struct bound){ form_most(f.c, form_count(f.m, f.n)), s->normal_error[t->patch] };
 	form_scale(f.c, f.m, f.n, s->binomial, false);
 	return f;
+}
+
+/* Of a component of X - from w in the frame. */
+static struct bound moved_bound(const struct level_surface *s, const double from[3])
+{
+	double away = vec3_length(vec3_of(from));
+	struct bound b = { s->of_points.size + away * s->of_weights.size, 0 };
+	b.error = 2 * s->of_points.error + away * s->of_weights.error + 16 * UNIT_ROUNDOFF * b.size;
+	return b;
 }
 
 /* X - from w, in the frame: three components and w. */
@@ -61,33 +79,16 @@ static void point_forms(struct tracer *t, const double from[3], struct form out[
 	int m = s->net.order[0] - 1, n = s->net.order[1] - 1;
 	for (int d = 0; d < 4; d++) {
 		struct form f = form_new(t, m, n);
-		for (size_t i = 0; i < form_size(m, n); i++) {
+		for (size_t i = 0; i < form_count(m, n); i++) {
 			const double *p = t->points + 4 * i, *r = s->frame[d % 3];
 			f.c[i] = d == 3 ? p[3]
 			                : r[0] * p[0] + r[1] * p[1] + r[2] * p[2] - from[d] * p[3];
 		}
+		f.b = d == 3 ? s->of_weights : moved_bound(s, from);
+		f.b.size = form_most(f.c, form_count(m, n));
 		form_scale(f.c, m, n, s->binomial, false);
 		out[d] = f;
 	}
-}
-
-/* Largest numbers of X - from w and of N, from the patch's coefficients. */
-static double point_size(const struct tracer *t, const double from[3])
-{
-	const struct level_surface *s = t->level->surface;
-	double away = sqrt(from[0] * from[0] + from[1] * from[1] + from[2] * from[2]);
-	return s->reach + away * s->weight;
-}
-
-static double normal_size(const struct tracer *t)
-{
-	size_t count = level_normals_size(t->level->surface) / 4;
-	double most = 0;
-	for (size_t i = 0; i < count; i++) {
-		const double *n = t->normals + 4 * i;
-		most = larger(most, n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-	}
-	return sqrt(most);
 }
 
 /* All points about the axis lie inside the circle, or all beyond one line that touches it. */
@@ -96,6 +97,7 @@ static bool circle_excludes(const struct tracer *t, double radius)
 	const struct level_surface *s = t->level->surface;
 	size_t count = bezier_patch_size(&s->net) / 4;
 	double mx = 0, my = 0;
+	double error = 3 * moved_bound(s, s->point).error + 3 * radius * s->of_weights.error;
 	bool inside = true;
 	for (size_t i = 0; i < count; i++) {
 		const double *p = t->points + 4 * i;
@@ -103,8 +105,8 @@ static bool circle_excludes(const struct tracer *t, double radius)
 		        vec3_dot(vec3(p[0], p[1], p[2]), vec3_of(s->frame[0])) - s->point[0] * p[3];
 		double y =
 		        vec3_dot(vec3(p[0], p[1], p[2]), vec3_of(s->frame[1])) - s->point[1] * p[3];
-		double r = radius * p[3];
-		inside = inside && x * x + y * y < r * r * (1 - 1e-12);
+		double r = radius * p[3] - error;
+		inside = inside && r > 0 && x * x + y * y < r * r * (1 - 1e-12);
 		mx += x;
 		my += y;
 	}
@@ -115,79 +117,76 @@ static bool circle_excludes(const struct tracer *t, double radius)
 		return false;
 	mx /= l;
 	my /= l;
-	double least = 1e-12 * point_size(t, s->point);
 	for (size_t i = 0; i < count; i++) {
 		const double *p = t->points + 4 * i;
 		double x =
 		        vec3_dot(vec3(p[0], p[1], p[2]), vec3_of(s->frame[0])) - s->point[0] * p[3];
 		double y =
 		        vec3_dot(vec3(p[0], p[1], p[2]), vec3_of(s->frame[1])) - s->point[1] * p[3];
-		if (!(mx * x + my * y - radius * p[3] > least))
+		if (!(mx * x + my * y - radius * p[3] > error))
 			return false;
 	}
 	return true;
 }
 
-static bool cylinder_make(struct tracer *t, double *out)
+static bool cylinder_make(struct tracer *t, struct form *f)
 {
 	const struct level_surface *s = t->level->surface;
-	int m = s->net.order[0] - 1, n = s->net.order[1] - 1;
-	double r = t->level->value, size = point_size(t, s->point);
+	double r = t->level->value;
 	struct form x[4];
 	if (circle_excludes(t, r))
 		return false;
 	point_forms(t, s->point, x);
-	form_square(x[0].c, m, n, 1, out);
-	form_square(x[1].c, m, n, 1, out);
-	form_square(x[3].c, m, n, -r * r, out);
-	t->scale = size * size + r * r * s->weight * s->weight;
+	add_square(f, x[0], 1);
+	add_square(f, x[1], 1);
+	add_square(f, x[3], -r * r);
 	return true;
 }
 
-static bool eye_make(struct tracer *t, double *out)
+static bool eye_make(struct tracer *t, struct form *f)
 {
-	const struct level_surface *s = t->level->surface;
-	struct form f = { out, t->level->degree[0], t->level->degree[1] }, d[4];
-	point_forms(t, s->eye, d);
+	struct form d[4];
+	point_forms(t, t->level->surface->eye, d);
 	for (int k = 0; k < 3; k++)
 		add_product(f, normal_form(t, k), d[k], 1);
-	t->scale = normal_size(t) * point_size(t, s->eye);
 	return true;
 }
 
-static bool highlight_make(struct tracer *t, double *out)
+static bool highlight_make(struct tracer *t, struct form *f)
 {
 	const struct level_surface *s = t->level->surface;
-	const struct level *l = t->level;
+	double away = t->level->value;
 	struct form x[4], nx = normal_form(t, 0), ny = normal_form(t, 1);
-	double away = fabs(l->value), size = normal_size(t);
 	point_forms(t, s->point, x); /* -Q */
 	int m = nx.m + x[0].m, n = nx.n + x[0].n;
-	struct form g = l->value == 0 ? (struct form){ out, m, n } : form_new(t, m, n);
+	struct form fresh, *g = f;
+	if (away != 0) {
+		fresh = form_new(t, m, n);
+		g = &fresh;
+	}
 	add_product(g, nx, x[1], 1);
 	add_product(g, ny, x[0], -1);
-	t->scale = size * point_size(t, s->point);
-	if (l->value == 0)
+	if (away == 0)
 		return true;
 	struct form h = form_new(t, 2 * nx.m, 2 * nx.n), w = form_new(t, 2 * x[3].m, 2 * x[3].n);
-	form_square(nx.c, nx.m, nx.n, 1, h.c);
-	form_square(ny.c, ny.m, ny.n, 1, h.c);
-	form_square(x[3].c, x[3].m, x[3].n, 1, w.c);
-	form_square(g.c, m, n, 1, out);
-	add_product((struct form){ out, 2 * m, 2 * n }, h, w, -away * away);
-	form_scale(g.c, m, n, s->binomial, true);
+	add_square(&h, nx, 1);
+	add_square(&h, ny, 1);
+	add_square(&w, x[3], 1);
+	add_square(f, *g, 1);
+	add_product(f, h, w, -away * away);
+	form_scale(g->c, m, n, s->binomial, true);
+	double *side = f->c + t->n_field;
 	for (size_t i = 0; i < t->n_side; i++)
-		out[t->n_field + i] = l->value < 0 ? -g.c[i] : g.c[i];
-	t->scale = t->scale * t->scale + away * away * size * size * s->weight * s->weight;
+		side[i] = away < 0 ? -g->c[i] : g->c[i];
+	t->side_error = g->b.error;
 	return true;
 }
 
-static bool reflection_make(struct tracer *t, double *out)
+static bool reflection_make(struct tracer *t, struct form *f)
 {
 	const struct level_surface *s = t->level->surface;
-	const double *g = s->gap;
+	const double *gap = s->gap;
 	struct form d[4], q[2], normal[3];
-	double size = normal_size(t), far = point_size(t, s->eye), off = hypot(g[0], g[1]);
 	point_forms(t, s->eye, d);
 	for (int k = 0; k < 3; k++)
 		normal[k] = normal_form(t, k);
@@ -197,39 +196,41 @@ static bool reflection_make(struct tracer *t, double *out)
 	struct form b = form_new(t, nm + m, nn + n), c = form_new(t, nm + m, nn + n);
 	for (int k = 0; k < 2; k++) {
 		q[k] = form_new(t, m, n);
-		for (size_t i = 0; i < form_size(m, n); i++)
-			q[k].c[i] = g[k] * d[3].c[i] - d[k].c[i];
+		for (size_t i = 0; i < form_count(m, n); i++)
+			q[k].c[i] = gap[k] * d[3].c[i] - d[k].c[i];
+		q[k].b = bound_sum(d[k].b, gap[k], d[3].b);
 	}
-	for (size_t i = 0; i < form_size(m, n); i++)
-		across.c[i] = d[1].c[i] * g[0] - d[0].c[i] * g[1];
-	add_product(a, across, d[3], 1);
+	for (size_t i = 0; i < form_count(m, n); i++)
+		across.c[i] = d[1].c[i] * gap[0] - d[0].c[i] * gap[1];
+	across.b = bound_sum(bound_sum(across.b, gap[0], d[1].b), gap[1], d[0].b);
+	add_product(&a, across, d[3], 1);
 	for (int k = 0; k < 3; k++) {
-		form_square(normal[k].c, nm, nn, 1, square.c);
-		add_product(b, normal[k], d[k], 1);
+		add_square(&square, normal[k], 1);
+		add_product(&b, normal[k], d[k], 1);
 	}
-	add_product(c, normal[1], q[0], 1);
-	add_product(c, normal[0], q[1], -1);
-	struct form f = { out, 2 * (nm + m), 2 * (nn + n) };
+	add_product(&c, normal[1], q[0], 1);
+	add_product(&c, normal[0], q[1], -1);
 	add_product(f, square, a, 1);
 	add_product(f, b, c, -2);
-	t->scale = size * size * far * (3 * off * s->weight + 2 * far);
 	return true;
 }
 
 bool level_kind_make(struct tracer *t, double *out)
 {
-	static bool (*const make[N_LEVEL_KINDS])(struct tracer *, double *) = {
+	static bool (*const make[N_LEVEL_KINDS])(struct tracer *, struct form *) = {
 		[LEVEL_CYLINDER] = cylinder_make,
 		[LEVEL_EYE] = eye_make,
 		[LEVEL_HIGHLIGHT] = highlight_make,
 		[LEVEL_REFLECTION] = reflection_make,
 	};
 	const struct level *l = t->level;
+	struct form f = { out, l->degree[0], l->degree[1], { 0, 0 } };
 	memset(out, 0, sizeof *out * t->n_field);
 	t->n_product = 0;
-	if (!make[l->surface->kind](t, out))
+	if (!make[l->surface->kind](t, &f))
 		return false;
-	form_scale(out, l->degree[0], l->degree[1], l->surface->binomial, true);
+	form_scale(out, f.m, f.n, l->surface->binomial, true);
+	t->bound = f.b;
 	return true;
 }
 
@@ -238,10 +239,10 @@ size_t level_kind_room(const struct level *l)
 {
 	const struct level_surface *s = l->surface;
 	int m = s->net.order[0], n = s->net.order[1];
-	size_t points = form_size(m, n), normals = level_normals_size(s) / 4;
-	size_t both = form_size(s->degree[0] + m, s->degree[1] + n);
-	return 8 * points + 2 * form_size(2 * m, 2 * n) + 3 * normals +
-	       form_size(2 * s->degree[0], 2 * s->degree[1]) + 3 * both;
+	size_t points = form_count(m, n), normals = level_normals_size(s) / 4;
+	size_t both = form_count(s->degree[0] + m, s->degree[1] + n);
+	return 8 * points + 2 * form_count(2 * m, 2 * n) + 3 * normals +
+	       form_count(2 * s->degree[0], 2 * s->degree[1]) + 3 * both;
 }
 
 /* A number with its derivatives. */

@@ -19,20 +19,66 @@ enum { X = 0, U = 4, V = 8, FORMS = 12, EDGE_SAMPLES = 7 };
  * a closed surface. */
 #define GAP_SHARE 1e-6
 
+/* Derivatives that differ by less over a knot line are the same. */
+#define SLOPE_SHARE 1e-9
+
 struct maker {
 	const struct level_surface *s;
 	double center[3];
-	size_t room;   /* doubles a form */
-	double *x;     /* FORMS forms of the surface and its derivatives, scaled */
-	double *n[3];  /* the normal */
-	double terms;  /* bound of the terms that the normal is a sum of */
-	double *cross; /* U x V, U x X or X x V, one component */
+	size_t room;         /* doubles a form */
+	double *x;           /* FORMS forms of the surface and its derivatives, scaled */
+	double *n[3];        /* the normal */
+	struct bound normal; /* its size is that of the terms that it is a sum of */
+	double *cross;       /* U x V, U x X or X x V, one component */
 };
 
 static int degree_of(const struct level_surface *s, int form, int d)
 {
 	int p = s->net.order[d] - 1;
 	return form >= V ? p - (d == 1) : form >= U ? p - (d == 0) : p;
+}
+
+/* Largest number in forms f .. f + n - 1. */
+static double forms_most(const struct maker *k, int f, int n)
+{
+	double most = 0;
+	for (int i = 0; i < n; i++) {
+		size_t count = (size_t)(degree_of(k->s, f, 0) + 1) * (degree_of(k->s, f, 1) + 1);
+		most = larger(most, form_most(k->x + k->room * (f + i), count));
+	}
+	return most;
+}
+
+/* Of each component, from the sizes of the surface's forms; hu, hv are what differences were
+ * multiplied by. */
+static struct bound normal_bound(const struct maker *k, double hu, double hv)
+{
+	const struct level_surface *s = k->s;
+	const double h[FORMS / 4] = { 1, 2 * hu, 2 * hv }; /* a difference has two errors */
+	/* moved to the centre and turned into the frame: four numbers each */
+	double moved = larger(s->of_points.size, vec3_length(vec3_of(k->center)) * s->weight);
+	double error =
+	        2 * (s->of_points.error + s->of_weights.error * vec3_length(vec3_of(k->center))) +
+	        16 * UNIT_ROUNDOFF * moved;
+	struct bound x[FORMS / 4], w[FORMS / 4], sum = { 0 };
+	int m = s->degree[0], n = s->degree[1];
+	for (int g = 0; g < FORMS / 4; g++) {
+		x[g].size = forms_most(k, 4 * g, 3);
+		x[g].error = h[g] * error + 8 * UNIT_ROUNDOFF * x[g].size;
+		w[g].size = forms_most(k, 4 * g + 3, 1);
+		w[g].error = h[g] * s->of_weights.error + 8 * UNIT_ROUNDOFF * w[g].size;
+	}
+	if (!s->net.rational) {
+		sum = bound_product(x[U / 4], x[V / 4], m, n);
+		return bound_sum(sum, 1, sum);
+	}
+	static const int term[3][3] = { { U, V, X }, { U, X, V }, { X, V, U } };
+	for (int i = 0; i < 3; i++) {
+		struct bound c = bound_product(x[term[i][0] / 4], x[term[i][1] / 4], m, n);
+		c = bound_product(bound_sum(c, 1, c), w[term[i][2] / 4], m, n);
+		sum = bound_sum(sum, 1, c);
+	}
+	return sum;
 }
 
 static void load(struct maker *k, int patch)
@@ -64,17 +110,7 @@ static void load(struct maker *k, int patch)
 			for (int j = 0; j < q; j++)
 				dv[i * q + j] = hv * (x[i * (q + 1) + j + 1] - x[i * (q + 1) + j]);
 	}
-	double most[FORMS / 4], weight[FORMS / 4];
-	for (int g = 0; g < FORMS / 4; g++) {
-		most[g] = weight[g] = 0;
-		for (int d = 0; d < 4; d++)
-			for (size_t i = 0; i < (size_t)(p + 1) * (q + 1); i++) {
-				double *m = d < 3 ? &most[g] : &weight[g];
-				*m = larger(*m, fabs(k->x[k->room * (4 * g + d) + i]));
-			}
-	}
-	k->terms = weight[0] * most[1] * most[2] + weight[2] * most[1] * most[0] +
-	           weight[1] * most[0] * most[2];
+	k->normal = normal_bound(k, hu, hv);
 	for (int f = 0; f < FORMS; f++)
 		form_scale(k->x + k->room * f, degree_of(s, f, 0), degree_of(s, f, 1), s->binomial,
 		           false);
@@ -105,7 +141,7 @@ static void term_add(const struct maker *k, int a, int b, int w, double sign, in
 }
 
 /* The normal vanishes on a whole side of the patch: its factor out, at most twice. */
-static void take_out_factors(const struct maker *k)
+static void take_out_factors(struct maker *k)
 {
 	int m = k->s->degree[0], n = k->s->degree[1];
 	for (int side = 0; side < 8; side++) {
@@ -127,6 +163,8 @@ static void take_out_factors(const struct maker *k)
 			form_divide(k->n[c], m, n, d, upper);
 			form_scale(k->n[c], m, n, k->s->binomial, true);
 		}
+		/* a coefficient that had the number i of n has now n / i of its error */
+		k->normal.error *= (d == 0 ? m : n) + 1;
 	}
 }
 
@@ -137,7 +175,7 @@ static void take_out_noise(const struct maker *k, size_t count)
 	for (int i = 0; i < 3; i++)
 		for (size_t c = 0; c < count; c++)
 			most = larger(most, fabs(k->n[i][c]));
-	if (most <= ZERO_SHARE * k->terms)
+	if (most <= larger(ZERO_SHARE * k->normal.size, k->normal.error))
 		for (int i = 0; i < 3; i++)
 			memset(k->n[i], 0, sizeof(double) * count);
 }
@@ -166,6 +204,7 @@ static void normal_make(struct maker *k, int patch)
 		for (size_t c = 0; c < count; c++)
 			out[4 * c + i] = k->n[i][c];
 	}
+	s->normal_error[patch] = k->normal.error;
 }
 
 enum status level_normals(struct level_surface *s)
@@ -188,7 +227,8 @@ enum status level_normals(struct level_surface *s)
 	k.room = (size_t)(s->degree[0] + 1) * (s->degree[1] + 1);
 	s->normals = calloc((size_t)patches, sizeof(double) * level_normals_size(s));
 	k.x = calloc((FORMS + 4) * k.room, sizeof(double));
-	if (!s->normals || !k.x) {
+	s->normal_error = calloc((size_t)patches, sizeof(double));
+	if (!s->normals || !s->normal_error || !k.x) {
 		free(k.x);
 		return ST_RESOURCE;
 	}
@@ -294,12 +334,55 @@ static enum edge_kind edge_between(struct level_surface *s, int lower, int upper
 		return gap == 0 ? EDGE_SHARED : EDGE_SMOOTH;
 	a = side_of(s->normals + level_normals_size(s) * lower, s->degree, d, true);
 	b = side_of(s->normals + level_normals_size(s) * upper, s->degree, d, false);
-	if (side_difference(&a, &b, &most) <= 1e-10 * most) {
+	gap = side_difference(&a, &b, &most);
+	if (gap <= 1e-10 * most) {
+		/* a surface whose normals do agree is not further off than this */
+		s->normal_error[upper] += gap;
 		for (int i = 0; i <= a.degree; i++)
 			memcpy(b.c + b.step * i, a.c + a.step * i, sizeof(double[4]));
 		return EDGE_SHARED;
 	}
 	return side_smooth(&a, &b) ? EDGE_SMOOTH : EDGE_CREASE;
+}
+
+/* The first difference across a side, as a derivative by the surface's parameter, is the same on
+ * the other side: `row` doubles of each coefficient, `width` those of the two spans. */
+static bool slopes_agree(const struct side *a, const struct side *b, ptrdiff_t inwards,
+                         const double width[2])
+{
+	double off = 0, most = 0;
+	for (int i = 0; i <= a->degree; i++)
+		for (int c = 0; c < 4; c++) {
+			const double *x = a->c + a->step * i + c, *y = b->c + b->step * i + c;
+			double below = (x[0] - *(x - inwards)) / width[0];
+			double above = (y[inwards] - y[0]) / width[1];
+			off = larger(off, fabs(below - above));
+			most = larger(most, larger(fabs(below), fabs(above)));
+		}
+	return off <= SLOPE_SHARE * most;
+}
+
+/* The derivatives of f may jump: a curve that touches the line need not go on as it came. */
+static bool edge_bent(const struct level_surface *s, int lower, int upper, int d)
+{
+	const struct bezier_net *net = &s->net;
+	int degree[2] = { net->order[0] - 1, net->order[1] - 1 }, at[2] = { lower, upper };
+	size_t size = bezier_patch_size(net), row = d == 0 ? (size_t)4 * net->order[1] : 4;
+	double width[2];
+	for (int k = 0; k < 2; k++) {
+		int place = d == 0 ? at[k] / net->spans[1] : at[k] % net->spans[1];
+		width[k] = net->breaks[d][place + 1] - net->breaks[d][place];
+	}
+	struct side a = side_of(net->points + size * lower, degree, d, true);
+	struct side b = side_of(net->points + size * upper, degree, d, false);
+	if (!slopes_agree(&a, &b, (ptrdiff_t)row, width))
+		return true;
+	if (!level_needs_normals(s->kind))
+		return false;
+	row = d == 0 ? (size_t)4 * (s->degree[1] + 1) : 4;
+	a = side_of(s->normals + level_normals_size(s) * lower, s->degree, d, true);
+	b = side_of(s->normals + level_normals_size(s) * upper, s->degree, d, false);
+	return !slopes_agree(&a, &b, (ptrdiff_t)row, width);
 }
 
 /* The points on one side of a patch are one point. */
@@ -353,8 +436,10 @@ void level_edges(struct level_surface *s)
 				enum edge_kind k = inside ? edge_between(s, patch[0], patch[1], d)
 				                   : line == 0 ? edge_outside(s, patch[1], d, false)
 				                               : edge_outside(s, patch[0], d, true);
-				s->edges[d][d == 0 ? level_edge(s, 0, line, a)
-				                   : level_edge(s, 1, a, line)] = k;
+				size_t at = d == 0 ? level_edge(s, 0, line, a)
+				                   : level_edge(s, 1, a, line);
+				s->edges[d][at] = k;
+				s->bent[d][at] = !inside || edge_bent(s, patch[0], patch[1], d);
 			}
 	}
 }

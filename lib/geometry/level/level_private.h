@@ -10,6 +10,7 @@
 #include <stdbool.h>
 
 #include "level.h"
+#include "level_form.h"
 
 enum {
 	NORMAL_DEGREE_MAX = 3 * (ORDER_MAX - 1) - 1,
@@ -25,9 +26,6 @@ enum {
 
 /* Where all coefficients are below this share of the field's terms, f counts as zero. */
 #define ZERO_SHARE 1e-12
-
-/* Those and their differences decide nothing below this share: what computing them may have changed. */
-#define ROUNDING_SHARE 4e-15
 
 /* What lies between two patches, or between a patch and nothing. */
 enum edge_kind {
@@ -51,7 +49,10 @@ struct level_surface {
 	        *edges[2];    /* owned; edges[0]: (spans[0] + 1) x spans[1], lines u = breaks[0][i];
 	                            edges[1]: spans[0] x (spans[1] + 1), lines v = breaks[1][j] */
 	double reach, weight; /* largest |w S| and w of the net's points */
-	double *binomial;     /* owned; triangle of rows, see binomial_row */
+	struct bound of_points, of_weights; /* each component of w S; w */
+	double *normal_error;   /* owned; one a patch: of each component's coefficients */
+	unsigned char *bent[2]; /* owned; like edges: derivatives of f may jump there */
+	double *binomial;       /* owned; triangle of rows, see binomial_row */
 };
 
 struct level {
@@ -157,6 +158,7 @@ struct arc_end {
 struct cell {
 	int level[2];      /* size 2^-level */
 	unsigned index[2]; /* lower corner index x size */
+	double error;      /* of the coefficients: what is less has no certain sign */
 };
 
 struct undecided {
@@ -171,7 +173,8 @@ struct tracer {
 	double *field;          /* coefficients of f, as searched at first */
 	size_t n_field, n_side; /* coefficients of f, and of the side condition behind them */
 	bool own_field;         /* f is evaluated from `field` (a factor was taken out) */
-	double scale;           /* size of the terms that f is a sum of */
+	struct bound bound;     /* of f; its size that of the terms that f is a sum of */
+	double side_error;
 	struct list arcs, pieces, ends, undecided;
 	double *scratch[N_SCRATCH]; /* cells on the way down, one array a depth */
 	double *product;            /* room for scaled factors of a product */
@@ -203,6 +206,9 @@ size_t level_kind_room(const struct level *l);
 
 /* level_patch.c: n doubles, from the room or fresh; NULL: t->failed. */
 double *level_room(struct tracer *t, size_t n);
+
+/* level_field.c: the normal's components on the tracer's patch. */
+struct bound level_normal_bound(const struct tracer *t);
 
 /* level_cell.c */
 void level_search(struct tracer *t, double *c);
