@@ -58,6 +58,8 @@ json_t *describe_json(void)
 	json_set_text(o, "help", worker.help);
 	json_set_text(o, "inputs", "surfaces");
 	json_object_set_new(o, "scene", json_boolean(worker.scene));
+	json_object_set_new(o, "shards",
+	                    json_true()); /* the shared main can do some of the units */
 	json_object_set_new(o, "parameters", params);
 	json_object_set_new(o, "outputs", outputs);
 	return o;

@@ -8,6 +8,7 @@
 
 #include "json.h"
 #include "message.h"
+#include "number.h"
 #include "worker_private.h"
 
 /* Longer texts in NOTE and ERROR are cut: a packet has a limit. Bytes. */
@@ -121,13 +122,17 @@ static void keep_error(void *data, enum status st, const char *text)
 static void send_hello(struct link *l)
 {
 	char host[256] = "";
+	const char *node = getenv("SLURMD_NODENAME"), *job = getenv("SLURM_JOB_ID");
+	int64_t number;
 	json_t *o = json_object();
 	gethostname(host, sizeof host - 1);
 	json_set_int(o, "protocol", MESSAGE_PROTOCOL);
 	json_set_text(o, "worker", worker.name);
 	json_set_int(o, "worker_version", worker.version);
 	json_set_int(o, "pid", getpid());
-	json_set_text(o, "host", host);
+	json_set_text(o, "host", node ? node : host);
+	if (job && number_parse_integer(job, &number))
+		json_set_int(o, "slurm_job", number);
 	send_packet(l, MESSAGE_HELLO, o);
 }
 

@@ -166,9 +166,17 @@ static enum status open_part(struct work *w, const char *path)
 		return ST_RESOURCE;
 	enum status st = part_open(&p->part, path, key, p->n_units, &w->report);
 	free(key);
+	/* a shard without units left no file; what one should have left and did not is done here */
 	for (int i = 0; st == ST_OK && i < p->task->n_parts; i++)
-		st = part_merge(p->part, p->task->parts[i], &w->report);
+		if (path_exists(p->task->parts[i]))
+			st = part_merge(p->part, p->task->parts[i], &w->report);
 	return st;
+}
+
+static void discard_parts(const struct task *t)
+{
+	for (int i = 0; i < t->n_parts; i++)
+		part_discard(t->parts[i]);
 }
 
 /* ---- one computation ---- */
@@ -215,8 +223,7 @@ static enum status finish(struct work *w)
 	tell_results(w);
 	part_remove(p->part);
 	p->part = NULL;
-	for (int i = 0; i < p->task->n_parts; i++)
-		part_discard(p->task->parts[i]);
+	discard_parts(p->task);
 	return ST_OK;
 }
 
@@ -273,9 +280,11 @@ static enum status do_computation(struct run *run, const struct task *t,
 	json_t *figures = NULL;
 	char *part = part_path(&w);
 	enum status st = part ? attributes_make(&w) : ST_RESOURCE;
-	if (st == ST_OK && !t->force && t->n_shards == 0 && outputs_up_to_date(&w, &figures)) {
+	if (st == ST_OK && !t->force && outputs_up_to_date(&w, &figures)) {
 		part_discard(part);
-		st = tell_up_to_date(&w, figures);
+		discard_parts(t);
+		if (t->n_shards == 0)
+			st = tell_up_to_date(&w, figures);
 	} else if (st == ST_OK) {
 		st = compute(&w, part);
 	}

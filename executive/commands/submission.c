@@ -14,6 +14,8 @@
 #include "number.h"
 #include "path.h"
 #include "roster.h"
+#include "settings.h"
+#include "shard.h"
 #include "text.h"
 
 enum { PACKET_ROOM = 48 * 1024 }; /* bytes of jobs in one SUBMIT */
@@ -25,6 +27,12 @@ const struct option_row submission_options[] = {
 	{ "--priority", NULL, "N", "higher starts first (default 0)" },
 	{ "--threads", NULL, "N", "threads of each job (default: setting threads)" },
 	{ "--memory", NULL, "MIB", "memory of each job (default: setting memory)" },
+	{ "--on", NULL, "WHERE", "local or slurm (default: setting launcher)" },
+	{ "--shards", NULL, "N", "cut each job into N processes (up to 1024)" },
+	{ "--partition", NULL, "P", "partition of Slurm (default: setting slurm-partition)" },
+	{ "--account", NULL, "A", "account of Slurm (default: setting slurm-account)" },
+	{ "--time", NULL, "T",
+	  "time limit in Slurm, as srun takes it (default: setting slurm-time)" },
 	{ "--force", NULL, NULL, "do it again even where the result is up to date" },
 	{ 0 },
 };
@@ -53,7 +61,8 @@ struct submission {
 	struct input *inputs;
 	size_t n_inputs;
 	json_t *after;
-	long priority, threads, memory;
+	long priority, threads, memory, shards;
+	char *on; /* owned */
 };
 
 bool submission_takes_value(const struct invocation *i, const char *option)
@@ -101,7 +110,28 @@ static enum status check_worker(struct submission *s, const struct project *p)
 	return st;
 }
 
-static enum status check_options(struct submission *s)
+/* Where it is to run; the setting counts where nothing is said. */
+static enum status check_place(struct submission *s, const struct project *p)
+{
+	const struct report *r = &s->i->report;
+	const char *on = invocation_value(s->i, "--on");
+	struct settings settings = { 0 };
+
+	if (on && strcmp(on, "local") && strcmp(on, "slurm"))
+		return report_error(r, ST_PARAMETER, "--on is '%s'; it must be local or slurm", on);
+	if (s->shards > 1 && !json_flag(s->worker->description, "shards", false))
+		return report_error(r, ST_PARAMETER,
+		                    "--shards: worker %s does its work as a whole; leave it out",
+		                    s->worker->name);
+	enum status st = settings_read(&settings, p, r);
+	if (st != ST_OK)
+		return st;
+	s->on = strdup(on ? on : settings.value[SETTING_LAUNCHER]);
+	settings_finish(&settings);
+	return s->on ? ST_OK : report_error(r, ST_RESOURCE, "memory ran out");
+}
+
+static enum status check_options(struct submission *s, const struct project *project)
 {
 	const struct invocation *i = s->i;
 	enum status st = invocation_integer(i, "--priority", -100, 100, 0, &s->priority);
@@ -111,6 +141,10 @@ static enum status check_options(struct submission *s)
 		st = invocation_integer(i, "--threads", 1, 1024, 0, &s->threads);
 	if (st == ST_OK)
 		st = invocation_integer(i, "--memory", 1, 1L << 30, 0, &s->memory);
+	if (st == ST_OK)
+		st = invocation_integer(i, "--shards", 1, SHARDS_MAX, 1, &s->shards);
+	if (st == ST_OK)
+		st = check_place(s, project);
 	s->after = json_array();
 	for (const char *p = after; st == ST_OK && p && *p; p += *p == ',') {
 		int64_t id;
@@ -211,6 +245,11 @@ static json_t *make_job(const struct submission *s, const char *group, size_t fi
 	json_set_int(o, "priority", s->priority);
 	json_set_int(o, "threads", s->threads);
 	json_set_int(o, "memory_mib", s->memory);
+	json_set_text(o, "on", s->on);
+	json_set_int(o, "shards", s->shards);
+	json_set_text(o, "partition", invocation_value(s->i, "--partition"));
+	json_set_text(o, "account", invocation_value(s->i, "--account"));
+	json_set_text(o, "time", invocation_value(s->i, "--time"));
 	json_object_set_new(o, "inputs", inputs);
 	json_object_set(o, "parameters", s->parameters);
 	json_object_set(o, "after", s->after);
@@ -302,7 +341,7 @@ enum status submission_send(const struct invocation *i, struct connection *c, st
 	if (st == ST_OK)
 		st = check_worker(&s, &p);
 	if (st == ST_OK)
-		st = check_options(&s);
+		st = check_options(&s, &p);
 	if (st == ST_OK)
 		st = project_make(&p, &i->report);
 	if (st == ST_OK)
@@ -317,6 +356,7 @@ enum status submission_send(const struct invocation *i, struct connection *c, st
 		free(s.inputs[k].path);
 	}
 	free(s.inputs);
+	free(s.on);
 	json_decref(s.parameters);
 	json_decref(s.after);
 	roster_finish(&s.roster);

@@ -9,8 +9,8 @@
 
 static json_t *worker_json(const struct roster_worker *w)
 {
-	static const char *const keys[] = { "title", "version",    "help",   "inputs",
-		                            "scene", "parameters", "outputs" };
+	static const char *const keys[] = { "title", "version", "help",       "inputs",
+		                            "scene", "shards",  "parameters", "outputs" };
 	json_t *o = json_object();
 
 	json_set_text(o, "name", w->name);

@@ -28,6 +28,8 @@ struct local {
 	char *stub, *host;
 	char *name, *path; /* the worker found last, for the next job of the same */
 	int niceness;
+	local_words *words; /* NULL: the workers themselves */
+	void *words_data;
 	uv_signal_t child;
 	uv_timer_t look;
 	struct worker *workers; /* those not forgotten */

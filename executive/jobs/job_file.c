@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "json.h"
-#include "text.h"
+#include "shard.h"
 
 enum { JOB_FILE_VERSION = 1 };
 
@@ -24,12 +24,32 @@ static json_t *inputs_json(const struct Stats *s)
 	return a;
 }
 
+/* A shard does some units; the job itself, where it is cut, joins what they did. */
+static json_t *shard_json(const struct Stats *s)
+{
+	int shard = shard_of(s->id);
+	return shard < 0 ? json_null() : json_pack("[i, i]", shard, s->shards);
+}
+
+static json_t *parts_json(const struct project *p, const struct Stats *s)
+{
+	if (s->shards < 2 || shard_of(s->id) >= 0)
+		return json_null();
+	json_t *a = json_array();
+	for (int i = 0; i < s->shards; i++) {
+		char *path = shard_path(p, "parts", shard_id(s->id, i), ".part");
+		json_array_append_new(a, path ? json_string(path) : NULL);
+		free(path);
+	}
+	return a;
+}
+
 static char *job_text(const struct project *p, const struct Stats *s)
 {
-	char *part = text_print("%s/parts/%lld.part", p->hidden, (long long)s->id);
+	char *part = shard_path(p, "parts", s->id, ".part");
 	json_t *o = json_object();
 	json_set_int(o, "version", JOB_FILE_VERSION);
-	json_set_int(o, "id", s->id);
+	json_set_int(o, "id", shard_job(s->id));
 	json_set_text(o, "worker", s->worker);
 	json_object_set_new(o, "inputs", inputs_json(s));
 	json_object_set_new(o, "parameters",
@@ -38,7 +58,8 @@ static char *job_text(const struct project *p, const struct Stats *s)
 	json_set_text(o, "part", part);
 	json_object_set_new(o, "threads", s->threads ? json_integer(s->threads) : json_null());
 	json_object_set_new(o, "memory", s->memory_mib ? json_integer(s->memory_mib) : json_null());
-	json_object_set_new(o, "shard", json_null());
+	json_object_set_new(o, "shard", shard_json(s));
+	json_object_set_new(o, "parts", parts_json(p, s));
 	json_object_set_new(o, "force", json_boolean(s->force));
 	char *text = part && o ? json_write(o, true) : NULL;
 	json_decref(o);

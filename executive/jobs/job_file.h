@@ -5,7 +5,7 @@
 #include "project.h"
 #include "stats.h"
 
-/* Not synced: after a crash it is made again from the ledger. Errors: ST_RESOURCE. */
+/* s->id may be a shard's (shard.h). Not synced: after a crash it is made again from the ledger. Errors: ST_RESOURCE. */
 enum status job_file_write(const char *path, const struct project *p, const struct Stats *s,
                            const struct report *r);
 

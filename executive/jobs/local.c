@@ -13,6 +13,7 @@
 #include "path.h"
 #include "roster.h"
 #include "process.h"
+#include "shard.h"
 #include "text.h"
 
 /* What a worker may have beyond the memory of its job: its program, stacks, the allocator. */
@@ -72,7 +73,7 @@ static void local_bury(void *data, const struct Stats *s)
 static int log_open(struct local *l, struct Stats *s)
 {
 	free(s->log);
-	s->log = text_print("%s/logs/%lld.log", l->project->hidden, (long long)s->id);
+	s->log = shard_path(l->project, "logs", shard_job(s->id), ".log");
 	return s->log ? open(s->log, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666) : -1;
 }
 
@@ -91,11 +92,18 @@ static enum status worker_start(struct worker *w, struct Stats *s, const struct 
 		                                  MIB
 		                        : 0,
 	};
+	char **words = NULL;
 	if (!spawn.worker)
 		return st;
 	st = job_file_write(w->job_file, l->project, s, r);
+	if (st == ST_OK && l->words) {
+		spawn.memory_bytes = 0;
+		st = l->words(l->words_data, s, spawn.worker, &words, r);
+		spawn.words = words;
+	}
 	if (st == ST_OK)
 		st = spawn_worker(&spawn, &w->pid, &w->in, &w->out, &w->pidfd, r);
+	local_words_free(words);
 	return st;
 }
 
@@ -110,7 +118,7 @@ static enum status local_start(void *data, struct Stats *s, const struct report 
 	w->local = l;
 	w->id = s->id;
 	w->out = w->pidfd = -1;
-	w->job_file = text_print("%s/jobs/%lld.json", l->project->hidden, (long long)s->id);
+	w->job_file = shard_path(l->project, "jobs", s->id, ".json");
 	if (!w->job_file)
 		goto fail;
 	w->log = log_open(l, s);
@@ -250,6 +258,19 @@ enum status local_create(struct local **out, uv_loop_t *loop, const struct proje
 	uv_signal_start(&l->child, child_on_signal, SIGCHLD);
 	*out = l;
 	return ST_OK;
+}
+
+void local_wrap(struct local *l, local_words *words, void *data)
+{
+	l->words = words;
+	l->words_data = data;
+}
+
+void local_words_free(char **words)
+{
+	for (size_t i = 0; words && words[i]; i++)
+		free(words[i]);
+	free(words);
 }
 
 const struct launcher *local_launcher(struct local *l)

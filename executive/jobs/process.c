@@ -18,7 +18,11 @@ extern char **environ;
 static int stub_start(const struct spawn *s, int in, int out, pid_t *pid)
 {
 	char parent[24], niceness[12], memory[24];
-	char *argv[] = { (char *)s->stub, parent, niceness, memory, (char *)s->worker, NULL };
+	char *alone[] = { (char *)s->worker, NULL };
+	char *const *words = s->words ? s->words : alone;
+	char *argv[SPAWN_WORDS + 5] = { (char *)s->stub, parent, niceness, memory };
+	for (size_t i = 0; words[i] && i < SPAWN_WORDS; i++)
+		argv[i + 4] = words[i];
 	snprintf(parent, sizeof parent, "%ld", (long)getpid());
 	snprintf(niceness, sizeof niceness, "%d", s->niceness);
 	snprintf(memory, sizeof memory, "%llu", (unsigned long long)s->memory_bytes);

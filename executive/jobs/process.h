@@ -7,9 +7,12 @@
 
 #include "report.h"
 
+enum { SPAWN_WORDS = 64 };
+
 struct spawn {
 	const char *stub, *worker;
-	int log; /* becomes standard error */
+	char *const *words; /* of the command, NULL at the end; NULL: the worker alone */
+	int log;            /* becomes standard error */
 	int niceness;
 	uint64_t memory_bytes; /* 0: no limit */
 };

@@ -14,15 +14,16 @@
 /* An input is written before its job is submitted: a young one may be waiting for that. */
 enum { INPUT_YOUNG_S = 600 };
 
-/* "12.json" -> 12, -1 for another name. */
+/* "12.json" and a shard's "12-3.json" -> 12, -1 for another name. */
 static int64_t name_id(const char *name, const char *extension)
 {
-	int64_t id;
+	int64_t id, shard;
 	const char *p = name, *end = name + strlen(name);
-	if (!path_has_suffix(name, extension) || !number_read_integer(&p, end, &id) || id < 1 ||
-	    strcmp(p, extension))
+	if (!path_has_suffix(name, extension) || !number_read_integer(&p, end, &id) || id < 1)
 		return -1;
-	return id;
+	if (*p == '-' && p++ && (!number_read_integer(&p, end, &shard) || shard < 0))
+		return -1;
+	return strcmp(p, extension) ? -1 : id;
 }
 
 struct keeper {

@@ -4,9 +4,11 @@
 
 #include <uv.h>
 
+#include "crew.h"
 #include "local.h"
 #include "queue.h"
 #include "service.h"
+#include "slurm.h"
 
 /* bytes waiting for a client above which it gets no more of what can be told later; above which it
  * is let go */
@@ -17,6 +19,8 @@ struct server {
 	const struct project *project; /* borrowed */
 	struct queue *queue;
 	struct local *local;
+	struct slurm *slurm;
+	struct crew *crew;
 	struct ledger ledger;
 	struct clock clock;
 	uv_pipe_t listener;

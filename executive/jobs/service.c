@@ -68,6 +68,7 @@ static void close_handles(struct server *s)
 	uv_close((uv_handle_t *)&s->interrupt, NULL);
 	uv_close((uv_handle_t *)&s->terminate, NULL);
 	local_close(s->local);
+	slurm_close(s->slurm);
 }
 
 static void leave_end(struct server *s)
@@ -176,6 +177,7 @@ static struct queue_limits limits_from(const struct settings *s)
 		.term_grace = settings_number(s, SETTING_TERM_GRACE),
 		.hello_grace = settings_number(s, SETTING_HELLO_GRACE),
 		.end_grace = settings_number(s, SETTING_END_GRACE),
+		.jobs_elsewhere = (int)settings_number(s, SETTING_SLURM_JOBS),
 	};
 	l.jobs = jobs ? jobs : processors > JOBS_LEAST ? processors : JOBS_LEAST;
 	l.threads = l.jobs * l.job_threads > processors ? l.jobs * l.job_threads : processors;
@@ -233,7 +235,7 @@ static enum status server_open(struct server *s, const struct settings *settings
 {
 	struct queue_limits limits = limits_from(settings);
 	struct queue_ports ports = {
-		.launcher = local_launcher(s->local),
+		.launcher = crew_launcher(s->crew),
 		.ledger = &s->ledger,
 		.clock = &s->clock,
 		.told = on_told,
@@ -245,17 +247,34 @@ static enum status server_open(struct server *s, const struct settings *settings
 	if (st == ST_OK)
 		st = queue_create(&s->queue, &ports, &limits);
 	if (st == ST_OK) {
-		local_connect(s->local, queue_sink(s->queue));
+		crew_connect(s->crew, queue_sink(s->queue));
 		st = queue_load(s->queue, r);
 	}
+	return st;
+}
+
+static enum status launchers_create(struct server *s, const struct settings *settings,
+                                    const struct report *r)
+{
+	enum status st = local_create(&s->local, &s->loop, s->project,
+	                              (int)settings_number(settings, SETTING_NICE), r);
+	if (st == ST_OK)
+		st = slurm_create(&s->slurm, &s->loop, s->project, settings, r);
+	if (st != ST_OK)
+		return st;
+	crew_add(s->crew, "local", local_launcher(s->local));
+	crew_add(s->crew, "slurm", slurm_launcher(s->slurm));
+	local_connect(s->local, crew_sink(s->crew));
+	slurm_connect(s->slurm, crew_sink(s->crew));
 	return st;
 }
 
 static enum status server_run(struct server *s, const struct settings *settings, int *ready,
                               const struct report *r)
 {
-	enum status st = local_create(&s->local, &s->loop, s->project,
-	                              (int)settings_number(settings, SETTING_NICE), r);
+	enum status st = crew_create(&s->crew);
+	if (st == ST_OK)
+		st = launchers_create(s, settings, r);
 	if (st != ST_OK)
 		return st;
 	handles_init(s);
@@ -299,6 +318,8 @@ enum status service_run(const struct project *p, const struct settings *settings
 			uv_loop_close(&s->loop);
 		}
 		queue_destroy(s->queue);
+		crew_destroy(s->crew);
+		slurm_destroy(s->slurm);
 		local_destroy(s->local);
 		ledger_close(&s->ledger);
 		close(s->lock);

@@ -1,6 +1,6 @@
 /* stub.c - batten-launch: becomes a worker, after setting what a worker must not set for itself.
  *
- *	batten-launch PARENT NICENESS BYTES WORKER
+ *	batten-launch PARENT NICENESS BYTES WORKER [WORD...]
  *
  * PARENT is the service's process, BYTES the limit on the worker's private memory (0: none). The
  * process keeps its number and its group. It stands alone so that it starts at once.
@@ -48,8 +48,8 @@ static int limit_set(int which, rlim_t value)
 
 int main(int argc, char **argv)
 {
-	if (argc != 5) {
-		fprintf(stderr, "usage: batten-launch PARENT NICENESS BYTES WORKER\n");
+	if (argc < 5) {
+		fprintf(stderr, "usage: batten-launch PARENT NICENESS BYTES WORKER [WORD...]\n");
 		return STATUS_USAGE;
 	}
 	pid_t parent = (pid_t)atol(argv[1]);
@@ -69,8 +69,7 @@ int main(int argc, char **argv)
 	/* batten's own threads are all there are */
 	if (setenv("OPENBLAS_NUM_THREADS", "1", 1) || setenv("OMP_NUM_THREADS", "1", 1))
 		return stub_fails("set the environment");
-	char *worker[] = { argv[4], NULL };
-	execv(argv[4], worker);
+	execv(argv[4], argv + 4);
 	stub_fails("start the worker");
 	fprintf(stderr, "batten-launch: the worker is '%s'\n", argv[4]);
 	return STATUS_NOT_STARTED;
