@@ -55,6 +55,9 @@ bool trim_test_inside(const struct trim_test *x, double u, double v);
 /* For boxes of parameters: 1 wholly inside, -1 wholly outside, 0 a loop runs through. */
 int trim_test_box(const struct trim_test *x, const double lo[2], const double hi[2]);
 
+/* A range of parameters that holds all that is left; false: nothing is. */
+bool trim_test_range(const struct trim_test *x, double range[2][2]);
+
 /* Area of what is left, to a relative accuracy; *error is an estimate. Errors: ST_RESOURCE. */
 enum status trim_area(const struct trim *t, const struct surface *s, double accuracy, double *area,
                       double *error);

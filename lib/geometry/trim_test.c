@@ -202,3 +202,25 @@ int trim_test_box(const struct trim_test *x, const double lo[2], const double hi
 			return 0;
 	return trim_test_inside(x, (lo[0] + hi[0]) / 2, (lo[1] + hi[1]) / 2) ? 1 : -1;
 }
+
+bool trim_test_range(const struct trim_test *x, double range[2][2])
+{
+	memcpy(range, x->domain, sizeof x->domain);
+	if (!x->any_outer)
+		return true;
+	double box[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
+	for (int i = 0; i < x->pieces.n; i++) {
+		const struct trim_piece *p = &x->pieces.pieces[i];
+		if (!x->outer[p->loop])
+			continue;
+		box[0][0] = fmin(box[0][0], p->lo_u);
+		box[0][1] = fmax(box[0][1], p->hi_u);
+		box[1][0] = fmin(box[1][0], p->v[0]);
+		box[1][1] = fmax(box[1][1], p->v[1]);
+	}
+	for (int d = 0; d < 2; d++) {
+		range[d][0] = fmax(range[d][0], box[d][0]);
+		range[d][1] = fmin(range[d][1], box[d][1]);
+	}
+	return range[0][0] < range[0][1] && range[1][0] < range[1][1];
+}

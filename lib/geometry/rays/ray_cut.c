@@ -4,6 +4,14 @@
 #include <string.h>
 
 #include "ray_leaf.h"
+#include "refine.h"
+
+static enum status nothing_left(const struct report *r)
+{
+	return report_error(r, ST_INPUT,
+	                    "nothing to see: the surfaces are trimmed away wholly; give others, or "
+	                    "do not trim them");
+}
 
 static enum status nets_box(const struct bezier_net *nets, int n, struct ray_cut *c,
                             const struct report *r)
@@ -19,6 +27,8 @@ static enum status nets_box(const struct bezier_net *nets, int n, struct ray_cut
 			box_add_point(&c->box, vec3(p[0] / p[3], p[1] / p[3], p[2] / p[3]));
 		}
 	}
+	if (box_is_empty(&c->box))
+		return nothing_left(r);
 	c->center = box_center(&c->box);
 	c->scale = box_diagonal(&c->box) / 2;
 	if (!(c->scale > 1e-9 * vec3_length(c->center)) || !(c->scale > 0) || !isfinite(c->scale))
@@ -33,6 +43,8 @@ static enum status nets_box(const struct bezier_net *nets, int n, struct ray_cut
 static enum status cut_add_net(struct ray_cut *c, int surface, const struct bezier_net *b)
 {
 	size_t n = (size_t)b->spans[0] * b->spans[1], size = bezier_patch_size(b);
+	if (n == 0)
+		return ST_OK;
 	double *points = malloc(sizeof(double) * n * size);
 	if (!points)
 		return ST_RESOURCE;
@@ -74,7 +86,6 @@ static enum status cut_nets(struct ray_cut *c, const struct bezier_net *nets, in
 	c->patches = calloc(patches, sizeof *c->patches);
 	if (!c->points || !c->patches || patches > UINT32_MAX)
 		return ST_RESOURCE;
-	c->n_surfaces = n;
 	c->bytes += patches * sizeof *c->patches;
 	for (int i = 0; i < n; i++) {
 		st = cut_add_net(c, i, &nets[i]);
@@ -86,6 +97,8 @@ static enum status cut_nets(struct ray_cut *c, const struct bezier_net *nets, in
 		if (st != ST_OK)
 			return st;
 	}
+	if (c->n_leaves == 0)
+		return nothing_left(r);
 	return ST_OK;
 }
 
@@ -103,13 +116,81 @@ static void cut_settle(struct ray_cut *c)
 	c->bytes += c->capacity * sizeof *c->leaves;
 }
 
+/* The part of a surface that holds what its trim leaves; order 0 where nothing is left. */
+static enum status part_left(const struct ray_cut *c, const struct surface *s, int i,
+                             struct surface *out)
+{
+	double range[2][2];
+
+	*out = (struct surface){ .points = NULL };
+	if (!trim_test_range(c->trims[i], range))
+		return ST_OK;
+	return surface_part(out, s, (const double(*)[2])range);
+}
+
+/* The net of a surface, or of that part of it; none: spans 0. */
+static enum status net_of(const struct ray_cut *c, const struct surface *s, int i,
+                          struct bezier_net *out)
+{
+	struct surface part;
+
+	if (!c->trims[i])
+		return bezier_net_init(out, s);
+	enum status st = part_left(c, s, i, &part);
+	if (st == ST_OK && part.points)
+		st = bezier_net_init(out, &part);
+	surface_finish(&part);
+	return st;
+}
+
+/* Box of a surface's leaves, which stand together: from *k on. */
+static struct box leaves_box(const struct ray_cut *c, int surface, size_t *k)
+{
+	struct box out = box_empty();
+
+	for (; *k < c->n_leaves; (*k)++) {
+		const struct ray_bounds *b = &c->bounds[*k];
+
+		if (c->patches[c->leaves[*k].patch].surface != surface)
+			break;
+		struct vec3 lo = vec3((double)b->lo[0], (double)b->lo[1], (double)b->lo[2]);
+		struct vec3 hi = vec3((double)b->hi[0], (double)b->hi[1], (double)b->hi[2]);
+		box_add_point(&out, vec3_along(c->center, c->scale, lo));
+		box_add_point(&out, vec3_along(c->center, c->scale, hi));
+	}
+	return out;
+}
+
+/* What the box of the part that is left and that of its leaves have in common. */
+static enum status box_left(const struct ray_cut *c, const struct surface *s, int i,
+                            const struct box *leaves, struct box *out)
+{
+	struct surface part;
+
+	*out = box_empty();
+	if (box_is_empty(leaves))
+		return ST_OK;
+	enum status st = part_left(c, s, i, &part);
+	if (st == ST_OK)
+		st = surface_box(&part, 1e-4 * c->scale, out);
+	surface_finish(&part);
+	out->lo = vec3(fmax(out->lo.x, leaves->lo.x), fmax(out->lo.y, leaves->lo.y),
+	               fmax(out->lo.z, leaves->lo.z));
+	out->hi = vec3(fmin(out->hi.x, leaves->hi.x), fmin(out->hi.y, leaves->hi.y),
+	               fmin(out->hi.z, leaves->hi.z));
+	return st;
+}
+
 /* The surfaces' own box, nearly tight: cameras are fitted to it. */
 static enum status cut_box(struct ray_cut *c, const struct surface *const *surfaces, int n)
 {
+	size_t k = 0;
+
 	c->box = box_empty();
 	for (int i = 0; i < n; i++) {
-		struct box b;
-		enum status st = surface_box(surfaces[i], 1e-4 * c->scale, &b);
+		struct box b, leaves = leaves_box(c, i, &k);
+		enum status st = c->trims[i] ? box_left(c, surfaces[i], i, &leaves, &b)
+		                             : surface_box(surfaces[i], 1e-4 * c->scale, &b);
 
 		if (st != ST_OK)
 			return st;
@@ -118,8 +199,9 @@ static enum status cut_box(struct ray_cut *c, const struct surface *const *surfa
 	return ST_OK;
 }
 
-enum status ray_cut_init(struct ray_cut *c, const struct surface *const *surfaces, int n,
-                         size_t memory, const struct report *r)
+enum status ray_cut_init(struct ray_cut *c, const struct surface *const *surfaces,
+                         const struct trim *const *trims, int n, size_t memory,
+                         const struct report *r)
 {
 	memset(c, 0, sizeof *c);
 	c->memory = memory;
@@ -127,9 +209,16 @@ enum status ray_cut_init(struct ray_cut *c, const struct surface *const *surface
 		return report_error(r, ST_INPUT, "nothing to see: no surface; give one or more");
 
 	struct bezier_net *nets = calloc(n, sizeof *nets);
-	enum status st = nets ? ST_OK : ST_RESOURCE;
-	for (int i = 0; st == ST_OK && i < n; i++)
-		st = bezier_net_init(&nets[i], surfaces[i]);
+	c->trims = calloc(n, sizeof(struct trim_test *));
+	enum status st = nets && c->trims ? ST_OK : ST_RESOURCE;
+	if (c->trims)
+		c->n_surfaces = n;
+	for (int i = 0; st == ST_OK && i < n; i++) {
+		if (trims && trims[i] && trims[i]->n)
+			st = trim_test_create(&c->trims[i], trims[i], surfaces[i]);
+		if (st == ST_OK)
+			st = net_of(c, surfaces[i], i, &nets[i]);
+	}
 	if (st == ST_OK)
 		st = cut_nets(c, nets, n, r);
 	if (st == ST_OK)
@@ -153,9 +242,13 @@ enum status ray_cut_init(struct ray_cut *c, const struct surface *const *surface
 
 void ray_cut_finish(struct ray_cut *c)
 {
-	for (int i = 0; i < c->n_surfaces; i++)
-		free(c->points[i]);
+	for (int i = 0; i < c->n_surfaces; i++) {
+		if (c->points)
+			free(c->points[i]);
+		trim_test_destroy(c->trims[i]);
+	}
 	free(c->points);
+	free(c->trims);
 	free(c->patches);
 	free(c->leaves);
 	free(c->bounds);

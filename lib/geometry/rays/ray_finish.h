@@ -181,6 +181,33 @@ INLINE vl finish_newton(const struct ray_patch *patch, const struct finish_rays 
 	       (*pb <= 1 + BORDER);
 }
 
+/* Of the lanes `ok` those whose place (a, b) in the patch the trim leaves. */
+static __attribute__((noinline)) vl finish_trim(const struct packet *p, const struct ray_leaf *l,
+                                                vl ok, vd a, vd b)
+{
+	const struct ray_patch *patch = &p->scene->cut.patches[l->patch];
+	const struct trim_test *trim = p->scene->cut.trims[patch->surface];
+
+	for (int i = 0; i < HALF; i++) {
+		if (!ok[i])
+			continue;
+		double at[2] = { fmin(fmax(a[i], 0), 1), fmin(fmax(b[i], 0), 1) };
+		bool beside = l->trim == TRIM_THROUGH;
+
+		for (int d = 0; d < 2; d++) {
+			double from = (double)l->from[d], step = (double)l->step[d];
+
+			beside |= at[d] < from - TRIM_BESIDE * step ||
+			          at[d] > from + (1 + TRIM_BESIDE) * step;
+		}
+		if (beside &&
+		    !trim_test_inside(trim, (1 - at[0]) * patch->u[0] + at[0] * patch->u[1],
+		                      (1 - at[1]) * patch->v[0] + at[1] * patch->v[1]))
+			ok[i] = 0;
+	}
+	return ok;
+}
+
 /* Keep what lanes `ok` of half h have found. */
 INLINE void finish_keep(struct packet *p, int h, vl ok, vl leaf, vd t, vd a, vd b,
                         const struct finish_point *x)
@@ -249,6 +276,8 @@ static __attribute__((noinline)) vi finish(struct packet *p, uint32_t number, vf
 		ok &= along > p->neard[h];
 		ok &= (along < p->fard[h] - SAME) |
 		      ((along <= p->fard[h] + SAME) & (leaf < p->leaf[h]));
+		if (l->trim != TRIM_NONE && any_half(ok))
+			ok = finish_trim(p, l, ok, a, b);
 		out[h] = ok;
 		if (!p->nearest || !any_half(ok))
 			continue;

@@ -292,8 +292,26 @@ static void leaf_bounds(const struct cutter *c, const double *net, const struct 
 	*reach = (float)far * 1.0001f + RAY_NOISE;
 }
 
+/* What the trim leaves of a part of the patch: as trim_test_box, with a little about the part. */
+static int cut_trim(const struct cutter *c, const double from[2], const double step[2])
+{
+	const struct ray_patch *p = &c->cut->patches[c->patch];
+	const struct trim_test *trim = c->cut->trims[p->surface];
+	double lo[2], hi[2];
+
+	if (!trim)
+		return 1;
+	for (int d = 0; d < 2; d++) {
+		const double *range = d ? p->v : p->u, length = range[1] - range[0];
+
+		lo[d] = range[0] + (from[d] - TRIM_BESIDE * step[d]) * length;
+		hi[d] = range[0] + (from[d] + (1 + TRIM_BESIDE) * step[d]) * length;
+	}
+	return trim_test_box(trim, lo, hi);
+}
+
 static enum status cut_leaf(struct cutter *c, const struct bicubic *b, const double *net,
-                            const double from[2], const double step[2])
+                            const double from[2], const double step[2], int left)
 {
 	struct ray_cut *cut = c->cut;
 	enum status st = cut_room(cut);
@@ -332,20 +350,27 @@ static enum status cut_leaf(struct cutter *c, const struct bicubic *b, const dou
 	}
 	leaf->patch = c->patch;
 	leaf->rational = rational;
+	if (cut->trims[cut->patches[c->patch].surface])
+		leaf->trim = left ? TRIM_INSIDE : TRIM_THROUGH;
 	leaf_bounds(c, net, leaf, &cut->bounds[cut->n_leaves], &leaf->reach);
 	cut->n_leaves++;
 	return ST_OK;
 }
 
+/* left: as cut_trim says of what this is a part of. */
 static enum status cut_net(struct cutter *c, const double *net, const double from[2],
-                           const double step[2], const int depth[2])
+                           const double step[2], const int depth[2], int left)
 {
 	struct bicubic b;
 
+	if (left == 0)
+		left = cut_trim(c, from, step);
+	if (left < 0)
+		return ST_OK;
 	bicubic_fit(c, net, &b);
 	int d = cut_direction(&b, depth);
 	if (d < 0)
-		return cut_leaf(c, &b, net, from, step);
+		return cut_leaf(c, &b, net, from, step, left);
 
 	size_t size = (size_t)4 * c->order[0] * c->order[1];
 	double *child = c->nets + size * (depth[0] + depth[1]);
@@ -357,7 +382,7 @@ static enum status cut_net(struct cutter *c, const double *net, const double fro
 		child_step[d] /= 2;
 		child_from[d] += half * child_step[d];
 		child_depth[d]++;
-		enum status st = cut_net(c, child, child_from, child_step, child_depth);
+		enum status st = cut_net(c, child, child_from, child_step, child_depth, left);
 		if (st != ST_OK)
 			return st;
 	}
@@ -383,7 +408,7 @@ enum status ray_cut_patch(struct ray_cut *cut, uint32_t patch)
 	c->transform = malloc(sizeof(double) * size);
 	if (c->nets && c->transform)
 		st = cut_net(c, p->points, (const double[2]){ 0, 0 }, (const double[2]){ 1, 1 },
-		             (const int[2]){ 0, 0 });
+		             (const int[2]){ 0, 0 }, 0);
 	free(c->transform);
 	free(c->nets);
 	free(c);

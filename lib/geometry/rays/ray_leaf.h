@@ -10,6 +10,7 @@
 
 #include "bezier.h"
 #include "box.h"
+#include "trim.h"
 
 /* One Bezier patch, exact: the double-precision finish runs on it. */
 struct ray_patch {
@@ -19,6 +20,13 @@ struct ray_patch {
 	int surface;
 	bool rational;
 	double u[2], v[2]; /* range of parameters: from, to */
+};
+
+/* Where loops of the surface's trim run. */
+enum ray_trim {
+	TRIM_NONE,   /* the surface has no trim */
+	TRIM_INSIDE, /* not in the leaf, nor just beside it */
+	TRIM_THROUGH,
 };
 
 /*
@@ -37,6 +45,7 @@ struct ray_leaf {
 	        step[2]; /* parameters in the patch [0,1]: from + step * (s + 1) / 2; exact */
 	uint32_t patch;
 	uint32_t rational;
+	uint32_t trim; /* enum ray_trim */
 } __attribute__((aligned(64)));
 
 struct ray_bounds {
@@ -46,7 +55,8 @@ struct ray_bounds {
 struct ray_cut {
 	struct ray_patch *patches; /* owned */
 	size_t n_patches;
-	double **points; /* owned, and each of them; one a surface */
+	double **points;          /* owned, and each of them; one a surface */
+	struct trim_test **trims; /* owned, and each of them; NULL: no trim */
 	int n_surfaces;
 	struct ray_leaf *leaves;   /* owned, aligned to 64 bytes */
 	struct ray_bounds *bounds; /* owned; boxes of the leaves, needed while the tree is built */
@@ -57,6 +67,10 @@ struct ray_cut {
 	size_t bytes, memory; /* taken; allowed, 0 for no limit */
 };
 
+/* Loops this near to a leaf, in leaves, count as in it: what a ray finds on a leaf may lie beside it
+ * by a little. */
+#define TRIM_BESIDE 1e-3
+
 /* What single precision may be off by near the scene, in scene units. */
 #define RAY_NOISE 4e-7f
 
@@ -64,11 +78,12 @@ struct ray_cut {
  * Cut the surfaces into patches and leaves.
  * Errors: ST_RESOURCE (no memory, more than `memory` bytes), ST_INPUT (nothing to see).
  */
-enum status ray_cut_init(struct ray_cut *c, const struct surface *const *surfaces, int n,
-                         size_t memory, const struct report *r);
+enum status ray_cut_init(struct ray_cut *c, const struct surface *const *surfaces,
+                         const struct trim *const *trims, int n, size_t memory,
+                         const struct report *r);
 void ray_cut_finish(struct ray_cut *c);
 
-/* Cut one patch: append its leaves. Errors: ST_RESOURCE. */
+/* Cut one patch: append its leaves, but for those that are trimmed away. Errors: ST_RESOURCE. */
 enum status ray_cut_patch(struct ray_cut *c, uint32_t patch);
 
 #endif

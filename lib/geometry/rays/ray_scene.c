@@ -84,13 +84,20 @@ static enum status tree_build(struct ray_scene *s)
 enum status ray_scene_create(struct ray_scene **out, const struct surface *const *surfaces, int n,
                              size_t memory, const struct report *r)
 {
+	return ray_scene_create_trimmed(out, surfaces, NULL, n, memory, r);
+}
+
+enum status ray_scene_create_trimmed(struct ray_scene **out, const struct surface *const *surfaces,
+                                     const struct trim *const *trims, int n, size_t memory,
+                                     const struct report *r)
+{
 	struct ray_scene *s = calloc(1, sizeof *s);
 
 	*out = NULL;
 	if (!s)
 		return report_error(r, ST_RESOURCE, "no memory for a scene; allow more");
 
-	enum status st = ray_cut_init(&s->cut, surfaces, n, memory, r);
+	enum status st = ray_cut_init(&s->cut, surfaces, trims, n, memory, r);
 	if (st != ST_OK)
 		goto fail;
 	s->surfaces = calloc(n, sizeof *s->surfaces);
@@ -136,6 +143,11 @@ size_t ray_scene_memory(const struct ray_scene *s)
 size_t ray_scene_leaves(const struct ray_scene *s)
 {
 	return s->cut.n_leaves;
+}
+
+const struct trim_test *ray_scene_trim(const struct ray_scene *s, int surface)
+{
+	return s->cut.trims[surface];
 }
 
 struct box ray_scene_box(const struct ray_scene *s)

@@ -12,6 +12,7 @@
 
 #include "box.h"
 #include "surface.h"
+#include "trim.h"
 
 struct ray {
 	struct vec3 origin, direction; /* direction of unit length */
@@ -35,12 +36,23 @@ struct ray_scene; /* opaque; read-only after create */
  */
 enum status ray_scene_create(struct ray_scene **out, const struct surface *const *surfaces, int n,
                              size_t memory, const struct report *r);
+/*
+ * The same of what trims leave: trims[i] belongs to surfaces[i], NULL or one without loops: all of
+ * it. Where a surface is trimmed away rays go through. The trims are not needed afterwards.
+ */
+enum status ray_scene_create_trimmed(struct ray_scene **out, const struct surface *const *surfaces,
+                                     const struct trim *const *trims, int n, size_t memory,
+                                     const struct report *r);
 void ray_scene_destroy(struct ray_scene *s);
 
 /* What a scene takes, in bytes, and how many leaves it has. */
 size_t ray_scene_memory(const struct ray_scene *s);
 size_t ray_scene_leaves(const struct ray_scene *s);
 
+/* The test of a surface's trim, borrowed; NULL: it has none. */
+const struct trim_test *ray_scene_trim(const struct ray_scene *s, int surface);
+
+/* Of what the trims leave. */
 struct box ray_scene_box(const struct ray_scene *s);
 
 /*
