@@ -592,23 +592,39 @@ static const struct {
 	double degrees;
 	size_t undecided;
 	bool flat;
+	enum level_mark mark;
 } touches[] = {
-	{ "a plateau", flat, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, true },
+	{ "a plateau", flat, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, true, LEVEL_REGION },
 	{ "a plateau, slanting",
 	  flat,
 	  LEVEL_ISOPHOTE,
 	  { 0, 0.6, 0.8 },
 	  36.869897645844021,
 	  1,
-	  true },
-	{ "a plane in the plane", flat, LEVEL_PLANE, { 0, 0, 1 }, 1, 1, true },
-	{ "a point of a sphere", sphere, LEVEL_ISOPHOTE, { 0.3, 0.4, 0.8 }, 0, 1, false },
-	{ "its pole", sphere, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, false },
-	{ "the other pole", sphere, LEVEL_ISOPHOTE, { 0, 0, 1 }, 180, 1, false },
-	{ "the top of a torus", torus, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, false },
-	{ "a line of a cylinder", cylinder, LEVEL_ISOPHOTE, { 0.6, 0.8, 0 }, 0, 1, false },
-	{ "a plane on a torus", torus, LEVEL_PLANE, { 0, 0, 1 }, 1, 1, false },
-	{ "a plane on a sphere", sphere, LEVEL_PLANE, { 0, 0.6, 0.8 }, 2.5, 1, false },
+	  true,
+	  LEVEL_REGION },
+	{ "a plane in the plane", flat, LEVEL_PLANE, { 0, 0, 1 }, 1, 1, true, LEVEL_REGION },
+	{ "a point of a sphere",
+	  sphere,
+	  LEVEL_ISOPHOTE,
+	  { 0.3, 0.4, 0.8 },
+	  0,
+	  1,
+	  false,
+	  LEVEL_POINT },
+	{ "its pole", sphere, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, false, LEVEL_POINT },
+	{ "the other pole", sphere, LEVEL_ISOPHOTE, { 0, 0, 1 }, 180, 1, false, LEVEL_POINT },
+	{ "the top of a torus", torus, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, false, LEVEL_REGION },
+	{ "a line of a cylinder",
+	  cylinder,
+	  LEVEL_ISOPHOTE,
+	  { 0.6, 0.8, 0 },
+	  0,
+	  1,
+	  false,
+	  LEVEL_REGION },
+	{ "a plane on a torus", torus, LEVEL_PLANE, { 0, 0, 1 }, 1, 1, false, LEVEL_REGION },
+	{ "a plane on a sphere", sphere, LEVEL_PLANE, { 0, 0.6, 0.8 }, 2.5, 1, false, LEVEL_POINT },
 };
 
 /* What the level only touches is told as one box, without a curve. */
@@ -629,6 +645,10 @@ static void test_touch(void **state)
 		assert_int_equal(x.n_branches, 0);
 		assert_int_equal(x.n_undecided, touches[i].undecided);
 		assert_true(!touches[i].flat || x.undecided[0].flat);
+		if (x.undecided[0].kind != touches[i].mark)
+			print_error("%s: kind %d\n", touches[i].name, x.undecided[0].kind);
+		assert_int_equal(x.undecided[0].kind, touches[i].mark);
+		assert_int_equal(x.undecided[0].ends, 0);
 		level_result_finish(&x);
 		surface_finish(&s);
 	}
@@ -671,8 +691,30 @@ static void test_crossing(void **state)
 	surface_finish(&s);
 	s = wavy();
 	assert_int_equal(shape_trace(&s, LEVEL_PLANE, vec3(0, 0, 1), 0, 1e-5, &x, NULL), ST_OK);
-	assert_true(x.n_undecided > 0 && x.n_undecided < 60);
-	assert_true(x.n_branches > 0);
+	/* seven lines each way, the border's four among them */
+	int found[5] = { 0 };
+	assert_int_equal(x.n_branches, 2 * 7 * 6);
+	assert_int_equal(x.n_undecided, 49);
+	for (size_t i = 0; i < x.n_undecided; i++) {
+		const struct level_box *b = &x.undecided[i];
+		assert_int_equal(b->kind, LEVEL_CROSSING);
+		assert_in_range(b->ends, 2, 4);
+		found[b->ends]++;
+	}
+	assert_int_equal(found[4], 25);
+	assert_int_equal(found[3], 20);
+	assert_int_equal(found[2], 4);
+	/* branches of a crossing end in one point */
+	for (size_t b = 0; b < x.n_branches; b++)
+		for (int e = 0; e < 2; e++) {
+			const struct curve *c = &x.branches[b].uv;
+			struct vec3 p = curve_get_point(c, e ? c->n - 1 : 0, NULL);
+			assert_in_range(x.branches[b].mark[e], 0, 48);
+			const struct level_box *m = &x.undecided[x.branches[b].mark[e]];
+			assert_true(p.x == 0.5 * (m->lo[0] + m->hi[0]));
+			assert_true(p.y == 0.5 * (m->lo[1] + m->hi[1]));
+		}
+	assert_true(x.max_error <= 1e-5);
 	level_result_finish(&x);
 	surface_finish(&s);
 }

@@ -99,6 +99,9 @@ static void reach_find(struct level_surface *s, const struct surface *from)
 			double w;
 			struct vec3 p = surface_get_point(from, i, j, &w);
 			s->reach = larger(s->reach, w * vec3_length(p));
+			s->extent[0] = larger(s->extent[0], w * fabs(p.x));
+			s->extent[1] = larger(s->extent[1], w * fabs(p.y));
+			s->extent[2] = larger(s->extent[2], w * fabs(p.z));
 			s->weight = larger(s->weight, w);
 		}
 	double steps = 8.0 * (from->order[0] + from->order[1]) * UNIT_ROUNDOFF;

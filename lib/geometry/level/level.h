@@ -77,13 +77,30 @@ struct level_branch {
 	struct curve space; /* owned: cubic B-spline in space, same knots */
 	bool closed;        /* has no ends */
 	int seams;          /* how often uv jumps, from end to start of a closed one too */
+	int mark[2];        /* the place in `undecided` where it begins and ends; -1: none */
 	double length;      /* in space */
 	double max_error;   /* largest distance found between either curve and the exact one */
+};
+
+/*
+ * What stays undecided, by what is certain round it. Points and crossings are small: a part in 100,000
+ * of the surface, or below the tolerance. The branches that reach a crossing end in the same point
+ * there, the middle of its box, if they can within the tolerance; else at its border.
+ */
+enum level_mark {
+	LEVEL_POINT,    /* no curve leaves it: a touch, or nothing */
+	LEVEL_CROSSING, /* curves end in it */
+	LEVEL_REGION,   /* larger: a plateau, a touch along a line, or places too near each other */
+	LEVEL_GRAZE, /* whether a curve touches the border here, or a line where the derivatives of f
+	                   jump, is undecided; its branches are as the computed f has them */
+	N_LEVEL_MARKS
 };
 
 struct level_box {
 	double lo[2], hi[2]; /* in u, v */
 	bool flat;           /* f is zero in it up to rounding */
+	enum level_mark kind;
+	int ends; /* of branches, in it: how many curves leave it */
 };
 
 struct level_result {

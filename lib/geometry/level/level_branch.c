@@ -137,9 +137,38 @@ static void spans_add_bridge(const struct joint *j, size_t from, size_t to, bool
 	span_add(spans, &p, false);
 }
 
+/* Straight between a strand's end and the crossing that it ends in. Both it and the curve are in the
+ * mark's box. */
+static void spans_add_mark(const struct joint *j, size_t end, bool into, struct list *spans)
+{
+	int mark = j->links[end].mark;
+	struct joint_end a;
+	double uv[2], p[3];
+	if (mark == 0 || j->marks[mark - 1].kind != LEVEL_CROSSING)
+		return;
+	joint_end_get(j, end, &a);
+	level_mark_middle(j->level->surface, &j->marks[mark - 1], uv, p);
+	struct piece x = { .error = 2 * distance(a.p, p) };
+	if (x.error == 0 || x.error > j->level->tolerance)
+		return;
+	for (int e = 0; e < 2; e++) {
+		memcpy(x.uv[e], (e == 0) == into ? a.uv : uv, sizeof uv);
+		memcpy(x.p[e], (e == 0) == into ? a.p : p, sizeof p);
+	}
+	for (int e = 0; e < 2; e++) {
+		for (int d = 0; d < 2; d++)
+			x.duv[e][d] = x.uv[1][d] - x.uv[0][d];
+		for (int d = 0; d < 3; d++)
+			x.dp[e][d] = x.p[1][d] - x.p[0][d];
+	}
+	span_add(spans, &x, false);
+}
+
 static enum status spans_make(const struct joint *j, const size_t *entries, size_t n, bool closed,
                               struct list *spans)
 {
+	if (!closed)
+		spans_add_mark(j, entries[0], false, spans);
 	for (size_t i = 0; i < n; i++) {
 		const struct link *l = &j->links[entries[i]];
 		spans_add_strand(j, entries[i], i > 0 && l->cut, spans);
@@ -148,6 +177,8 @@ static enum status spans_make(const struct joint *j, const size_t *entries, size
 		if (more && out->kind == LINK_STRAND && (out->on_edge || !out->cut))
 			spans_add_bridge(j, entries[i] ^ 1, out->other, out->on_edge, spans);
 	}
+	if (!closed)
+		spans_add_mark(j, entries[n - 1] ^ 1, true, spans);
 	return spans->failed ? ST_RESOURCE : ST_OK;
 }
 
@@ -263,6 +294,8 @@ enum status level_branch_make(const struct joint *j, const size_t *entries, size
 {
 	struct list spans = { 0 };
 	enum status st = spans_make(j, entries, n, closed, &spans);
+	out->mark[0] = closed ? -1 : j->links[entries[0]].mark - 1;
+	out->mark[1] = closed ? -1 : j->links[entries[n - 1] ^ 1].mark - 1;
 	if (st == ST_OK)
 		st = curves_make(spans.p, spans.n, j->level->surface->net.size, closed, out);
 	if (st == ST_OK && closed) {

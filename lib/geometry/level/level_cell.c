@@ -9,24 +9,33 @@
 #include "level_private.h"
 
 #include <math.h>
+#include <string.h>
 
 /* A patch with many undecided cells is not halved so far any more. */
-enum { FEW_UNDECIDED = 64, MANY_UNDECIDED = 512, DEPTH_AFTER_FEW = 11, DEPTH_AFTER_MANY = 7 };
+enum { FEW_UNDECIDED = 256, MANY_UNDECIDED = 1024, DEPTH_AFTER_FEW = 11, DEPTH_AFTER_MANY = 7 };
+
+/* A cell halved less often is a plateau where f counts as zero, and may be slender; a smaller one
+ * is a plateau only where rounding leaves nothing of f. */
+enum { LARGE_LEVELS = 16, SLENDER_LEVELS = 6 };
+
+/* A side cleared of rounding has numbers below this part of the error. */
+#define SIDE_ZERO 1e-6
 
 enum monotone { MONOTONE_NOT, MONOTONE_RISING, MONOTONE_FALLING };
 
-static void undecided_add(struct tracer *t, const struct cell *cell, bool flat)
+static struct undecided *undecided_add(struct tracer *t, const struct cell *cell, bool flat)
 {
 	struct undecided *x = list_add(&t->undecided, sizeof *x);
 	if (!x) {
 		t->failed = true;
-		return;
+		return NULL;
 	}
 	for (int d = 0; d < 2; d++) {
 		x->level[d] = cell->level[d];
 		x->index[d] = (int)cell->index[d];
 	}
 	x->flat = flat;
+	return x;
 }
 
 /* All differences in direction d are beyond rounding and of one sign. */
@@ -190,6 +199,70 @@ static void arcs_find(const struct graph *g)
 	}
 }
 
+/* Halve no further than this. */
+static int deepest(const struct tracer *t)
+{
+	size_t found = t->undecided.n;
+	return found < FEW_UNDECIDED    ? CELL_DEPTH_MAX
+	       : found < MANY_UNDECIDED ? DEPTH_AFTER_FEW
+	                                : DEPTH_AFTER_MANY;
+}
+
+/*
+ * The zeros along a side are those of every f within the error, or their places are added as
+ * undecided. `strip`: the cell, halved along the side.
+ */
+static void side_confirm(struct tracer *t, const double *c, int n, int d, bool upper,
+                         struct cell strip)
+{
+	bool above = true, below = true, rising = true, falling = true, zero = true;
+	double e = strip.error;
+	for (int i = 0; i <= n; i++) {
+		above &= c[i] > e;
+		below &= c[i] < -e;
+		zero &= fabs(c[i]) < SIDE_ZERO * e;
+		rising &= i == n || c[i + 1] - c[i] > 2.0001 * e;
+		falling &= i == n || c[i + 1] - c[i] < -2.0001 * e;
+	}
+	if (above || below || rising || falling || zero || t->failed)
+		return;
+	int along = 1 - d;
+	if (strip.level[along] >= deepest(t)) {
+		strip.index[d] =
+		        upper ? ((strip.index[d] + 1) << (CELL_DEPTH_MAX - strip.level[d])) - 1
+		              : strip.index[d] << (CELL_DEPTH_MAX - strip.level[d]);
+		strip.level[d] = CELL_DEPTH_MAX;
+		struct undecided *x = undecided_add(t, &strip, false);
+		if (x)
+			x->graze = true;
+		return;
+	}
+	double lower[FIELD_DEGREE_MAX + 1], rest[FIELD_DEGREE_MAX + 1];
+	memcpy(rest, c, sizeof *c * (n + 1));
+	form_split(rest, 0, n, 1, lower);
+	strip.error += n * UNIT_ROUNDOFF * form_most(c, (size_t)n + 1);
+	strip.level[along]++;
+	strip.index[along] *= 2;
+	side_confirm(t, lower, n, d, upper, strip);
+	strip.index[along]++;
+	side_confirm(t, rest, n, d, upper, strip);
+}
+
+/* Sides of a decided cell on lines where f has no derivative, or ends. */
+static void sides_confirm(const struct graph *g)
+{
+	struct tracer *t = g->t;
+	double side[FIELD_DEGREE_MAX + 1];
+	for (int k = 0; k < 4; k++) {
+		int d = k / 2, upper = k % 2;
+		unsigned last = (1u << g->cell->level[d]) - 1;
+		if (!t->bent[d][upper] || g->cell->index[d] != (upper ? last : 0))
+			continue;
+		int n = side_get(g, d, upper, side);
+		side_confirm(t, side, n, d, upper, *g->cell);
+	}
+}
+
 /* True where the cell is certain, and its arcs are done. */
 static bool cell_decide(struct tracer *t, const struct cell *cell, const double *c)
 {
@@ -206,6 +279,7 @@ static bool cell_decide(struct tracer *t, const struct cell *cell, const double 
 		            : 1;
 	struct graph g = { t, cell, c, 1 - d, in[d] == MONOTONE_RISING };
 	arcs_find(&g);
+	sides_confirm(&g);
 	return true;
 }
 
@@ -225,7 +299,8 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 		return;
 	form_range(c, t->n_field, &lo, &hi);
 	double most = larger(-lo, hi);
-	if (most <= ZERO_SHARE * t->bound.size || most <= cell.error) {
+	bool large = cell.level[0] + cell.level[1] < LARGE_LEVELS;
+	if (most <= cell.error || (large && most <= ZERO_SHARE * t->bound.size)) {
 		undecided_add(t, &cell, true);
 		return;
 	}
@@ -240,17 +315,16 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 	}
 	if (one_side && cell_decide(t, &cell, c))
 		return;
-	size_t found = t->undecided.n;
-	int deepest = found < FEW_UNDECIDED    ? CELL_DEPTH_MAX
-	              : found < MANY_UNDECIDED ? DEPTH_AFTER_FEW
-	                                       : DEPTH_AFTER_MANY;
-	if (cell.level[0] >= deepest || cell.level[1] >= deepest) {
+	int limit = deepest(t),
+	    d = bend_in(c, m, n, 0) * m * m >= bend_in(c, m, n, 1) * n * n ? 0 : 1;
+	if (cell.level[d] > cell.level[1 - d] + (large ? SLENDER_LEVELS : 0))
+		d = 1 - d;
+	if (cell.level[d] >= limit)
+		d = 1 - d;
+	if (cell.level[d] >= limit) {
 		undecided_add(t, &cell, false);
 		return;
 	}
-	int d = bend_in(c, m, n, 0) * m * m >= bend_in(c, m, n, 1) * n * n ? 0 : 1;
-	if (cell.level[d] > cell.level[1 - d] + 6)
-		d = 1 - d;
 	double *lower = scratch_at(t, depth);
 	if (!lower)
 		return;

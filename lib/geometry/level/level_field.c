@@ -100,10 +100,13 @@ static bool plane_make(struct tracer *t, double *out)
 		const double *p = t->points + 4 * i;
 		out[i] = n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + n[3] * p[3];
 	}
-	/* a unit vector times a point's error; the sum of four and the vector's own rounding */
-	t->bound.size = s->of_points.size + fabs(n[3]) * s->of_weights.size;
-	t->bound.error = 2 * s->of_points.error + fabs(n[3]) * s->of_weights.error +
-	                 12 * UNIT_ROUNDOFF * t->bound.size;
+	/* the points' errors, the sum of four, and what making the direction a unit vector did */
+	double size = 0;
+	for (int d = 0; d < 3; d++)
+		size += fabs(n[d]) * s->extent[d];
+	t->bound.size = s->reach + fabs(n[3]) * s->of_weights.size;
+	t->bound.error = size * (s->of_points.error / (s->reach + 1e-300) + 12 * UNIT_ROUNDOFF) +
+	                 fabs(n[3]) * (s->of_weights.error + 12 * UNIT_ROUNDOFF * s->weight);
 	return true;
 }
 
@@ -142,6 +145,16 @@ static void row_clear(double *c, struct row r)
 }
 
 /*
+ * The curve runs along the border, whichever sign f has inside: let f change it just inside, where
+ * without the border's factor it has the next row's.
+ */
+static void row_mirror(double *c, struct row side, struct row next)
+{
+	for (size_t i = 0; i < side.n; i++)
+		c[side.first + side.step * i] = -1e-30 * c[next.first + next.step * i];
+}
+
+/*
  * f is zero all along a side that is one point: the curve goes through the pole, and f without its
  * factor tells in which directions.
  */
@@ -173,6 +186,8 @@ static void clean_sides(struct tracer *t, double *c)
 		                     : level_edge(s, 1, t->place[0], at);
 		if (s->edges[d][edge] == EDGE_POLE && !row_is_zero(t, c, next))
 			take_out_pole(t, c, d, upper);
+		else if (s->edges[d][edge] == EDGE_BORDER)
+			row_mirror(c, side, next);
 	}
 }
 

@@ -84,6 +84,7 @@ static bool box_add(struct joint *j, int patch, const struct undecided *u)
 	level_globalise(j->level->surface, patch, lo, b->lo);
 	level_globalise(j->level->surface, patch, hi, b->hi);
 	b->flat = u->flat;
+	b->kind = u->graze ? LEVEL_GRAZE : LEVEL_POINT;
 	return true;
 }
 
@@ -246,9 +247,9 @@ enum status level_join(const struct level *l, const char *const *blocks, const s
 	if (st == ST_OK)
 		st = level_link(&j);
 	if (st == ST_OK)
-		st = branches_make(&j, out);
+		st = level_regions(&j, out);
 	if (st == ST_OK)
-		st = level_regions(l, &j.boxes, out);
+		st = branches_make(&j, out);
 	joint_finish(&j);
 	if (st == ST_OK)
 		return st;

@@ -61,8 +61,8 @@ static bool uv_jumps(const struct joint *j, size_t a, size_t b)
 
 static void link_ends(struct joint *j, size_t a, size_t b, bool cut, bool on_edge)
 {
-	j->links[a] = (struct link){ LINK_STRAND, b, cut, on_edge };
-	j->links[b] = (struct link){ LINK_STRAND, a, cut, on_edge };
+	j->links[a] = (struct link){ LINK_STRAND, b, cut, on_edge, 0 };
+	j->links[b] = (struct link){ LINK_STRAND, a, cut, on_edge, 0 };
 }
 
 /* Pair a[0..n) from below with b[0..m) from above, both rising. */

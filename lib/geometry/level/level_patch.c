@@ -257,6 +257,10 @@ enum status level_patch(const struct level *l, size_t patch, struct text *out)
 	t.place[1] = t.patch % s->net.spans[1];
 	t.points = bezier_patch(&s->net, t.place[0], t.place[1]);
 	t.n_field = (size_t)(l->degree[0] + 1) * (l->degree[1] + 1);
+	for (int k = 0; k < 2; k++) {
+		t.bent[0][k] = s->bent[0][level_edge(s, 0, t.place[0] + k, t.place[1])];
+		t.bent[1][k] = s->bent[1][level_edge(s, 1, t.place[0], t.place[1] + k)];
+	}
 	if (s->normals)
 		t.normals = s->normals + level_normals_size(s) * patch;
 	if (l->side)

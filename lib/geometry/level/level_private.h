@@ -15,9 +15,9 @@
 enum {
 	NORMAL_DEGREE_MAX = 3 * (ORDER_MAX - 1) - 1,
 	FIELD_DEGREE_MAX = 2 * (NORMAL_DEGREE_MAX + ORDER_MAX - 1),
-	CELL_DEPTH_MAX = 22, /* smallest cell: 2^-22 of a patch */
+	CELL_DEPTH_MAX = 24, /* smallest cell: 2^-24 of a patch */
 	N_SCRATCH = 2 * CELL_DEPTH_MAX + 2,
-	LINE_BITS = 24, /* a line in a patch is a multiple of 2^-24 */
+	LINE_BITS = CELL_DEPTH_MAX, /* a line in a patch is a multiple of 2^-24 */
 };
 
 /* Normals that differ by less over a knot line make no crease: 0.06 degrees, what CAD systems call
@@ -48,8 +48,9 @@ struct level_surface {
 	unsigned char
 	        *edges[2];    /* owned; edges[0]: (spans[0] + 1) x spans[1], lines u = breaks[0][i];
 	                            edges[1]: spans[0] x (spans[1] + 1), lines v = breaks[1][j] */
-	double reach, weight; /* largest |w S| and w of the net's points */
-	struct bound of_points, of_weights; /* each component of w S; w */
+	double reach, weight; /* largest |w S| and w of the control points */
+	double extent[3];     /* largest |w x|, |w y|, |w z| of the control points */
+	struct bound of_points, of_weights; /* any component of w S; w */
 	double *normal_error;   /* owned; one a patch: of each component's coefficients */
 	unsigned char *bent[2]; /* owned; like edges: derivatives of f may jump there */
 	double *binomial;       /* owned; triangle of rows, see binomial_row */
@@ -162,13 +163,14 @@ struct cell {
 };
 
 struct undecided {
-	int level[2], index[2], flat;
+	int level[2], index[2], flat, graze;
 };
 
 /* Work on one patch. */
 struct tracer {
 	const struct level *level;
 	int patch, place[2];
+	bool bent[2][2]; /* its side (d, upper) is one where derivatives of f may jump */
 	const double *points, *normals;
 	double *field;          /* coefficients of f, as searched at first */
 	size_t n_field, n_side; /* coefficients of f, and of the side condition behind them */
@@ -235,10 +237,10 @@ struct strand {
 
 /* level_patch.c: what a patch's bytes begin with; strands, pieces, undecided follow. */
 struct patch_header {
-	char magic[8];
+	char magic[8]; /* level_join refuses others */
 	int patch, n_strands, n_pieces, n_undecided;
 };
-#define PATCH_MAGIC "level 1"
+#define PATCH_MAGIC "level 2"
 
 enum link_kind { LINK_NONE, LINK_STRAND, LINK_END };
 
@@ -248,6 +250,7 @@ struct link {
 	size_t other; /* the end it meets */
 	bool cut;     /* u or v jumps there: a seam or a pole */
 	bool on_edge; /* both lie on one edge: a gap between them is bridged along it */
+	int mark;     /* LINK_END: where it ends, counted from 1 */
 };
 
 /* All patches' strands in one array. */
@@ -257,8 +260,9 @@ struct joint {
 	int *patch;             /* owned; of each strand */
 	struct piece *pieces;   /* owned */
 	size_t n_strands, n_pieces;
-	struct link *links; /* owned, 2 a strand */
-	struct list boxes;  /* struct level_box, undecided */
+	struct link *links;            /* owned, 2 a strand */
+	struct list boxes;             /* struct level_box, undecided */
+	const struct level_box *marks; /* what they became */
 };
 
 /* A strand's end: place in space, unit tangent out of the strand, surface parameters. */
@@ -278,7 +282,12 @@ enum status level_link(struct joint *j);
 enum status level_branch_make(const struct joint *j, const size_t *entries, size_t n, bool closed,
                               struct level_branch *out);
 
-/* level_region.c: boxes that touch become one. Errors: ST_RESOURCE. */
-enum status level_regions(const struct level *l, struct list *boxes, struct level_result *out);
+/* level_region.c: boxes that touch become one, of one kind; say which strands end there. Errors:
+ * ST_RESOURCE. */
+enum status level_regions(struct joint *j, struct level_result *out);
+
+/* A mark's middle, in u, v and in space. */
+void level_mark_middle(const struct level_surface *s, const struct level_box *b, double uv[2],
+                       double p[3]);
 
 #endif

@@ -1,9 +1,12 @@
-/* level_region.c - undecided boxes that touch are one region. */
+/* level_region.c - undecided boxes that touch are one mark; curves that end there are counted. */
 #include "level_private.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Marks no larger than this part of the size are a point, if the tolerance is not larger. */
+static const double point_share = 1e-5;
 
 static int box_compare(const void *x, const void *y)
 {
@@ -68,13 +71,99 @@ static void region_add(struct level_box *to, const struct level_box *b)
 		to->hi[d] = larger(to->hi[d], b->hi[d]);
 	}
 	to->flat = to->flat && b->flat;
+	if (b->kind != LEVEL_GRAZE)
+		to->kind = b->kind;
 }
 
-enum status level_regions(const struct level *l, struct list *boxes, struct level_result *out)
+/* The place in the patch that has u, v, and which it is. */
+static int patch_at(const struct level_surface *s, const double uv[2], double out[2])
 {
-	const struct bezier_net *net = &l->surface->net;
-	struct level_box *b = boxes->p;
-	size_t n = boxes->n, *parent, *active;
+	int place[2];
+	for (int d = 0; d < 2; d++) {
+		const double *b = s->net.breaks[d];
+		int i = 0;
+		while (i + 1 < s->net.spans[d] && uv[d] >= b[i + 1])
+			i++;
+		place[d] = i;
+		out[d] = (uv[d] - b[i]) / (b[i + 1] - b[i]);
+	}
+	return place[0] * s->net.spans[1] + place[1];
+}
+
+static void point_at(const struct level_surface *s, const double uv[2], double p[3])
+{
+	double at[2], x[4], xu[4], xv[4];
+	int patch = patch_at(s, uv, at);
+	const double *c = bezier_patch(&s->net, patch / s->net.spans[1], patch % s->net.spans[1]);
+	form_evaluate4(c, s->net.order[0] - 1, s->net.order[1] - 1, at[0], at[1], x, xu, xv);
+	for (int d = 0; d < 3; d++)
+		p[d] = x[d] / x[3];
+}
+
+void level_mark_middle(const struct level_surface *s, const struct level_box *b, double uv[2],
+                       double p[3])
+{
+	for (int d = 0; d < 2; d++)
+		uv[d] = 0.5 * (b->lo[d] + b->hi[d]);
+	point_at(s, uv, p);
+}
+
+/* From one corner to the others, twice: a box so small is nearly flat. */
+static double box_size(const struct level_surface *s, const struct level_box *b)
+{
+	double p[3], q[3], most = 0;
+	point_at(s, b->lo, p);
+	for (int k = 1; k < 4; k++) {
+		const double uv[2] = { k & 1 ? b->hi[0] : b->lo[0], k & 2 ? b->hi[1] : b->lo[1] };
+		point_at(s, uv, q);
+		most = larger(most, vec3_length(vec3_sub(vec3_of(p), vec3_of(q))));
+	}
+	return 2 * most;
+}
+
+/* The mark that holds u, v, counted from 1; 0: none. */
+static int mark_at(const struct level_result *x, const double uv[2], const double near[2])
+{
+	for (size_t i = 0; i < x->n_undecided; i++) {
+		const struct level_box *b = &x->undecided[i];
+		bool in = b->kind != LEVEL_GRAZE;
+		for (int d = 0; in && d < 2; d++)
+			in = uv[d] >= b->lo[d] - near[d] && uv[d] <= b->hi[d] + near[d];
+		if (in)
+			return (int)i + 1;
+	}
+	return 0;
+}
+
+static void marks_name(struct joint *j, struct level_result *out, const double near[2])
+{
+	const struct level_surface *s = j->level->surface;
+	double small = larger(j->level->tolerance, point_share * s->net.size);
+	for (size_t e = 0; e < 2 * j->n_strands; e++) {
+		struct joint_end x;
+		struct link *l = &j->links[e];
+		if (l->kind != LINK_END)
+			continue;
+		joint_end_get(j, e, &x);
+		l->mark = mark_at(out, x.uv, near);
+		if (l->mark)
+			out->undecided[l->mark - 1].ends++;
+	}
+	for (size_t i = 0; i < out->n_undecided; i++) {
+		struct level_box *b = &out->undecided[i];
+		if (b->kind != LEVEL_GRAZE)
+			b->kind = box_size(s, b) > small ? LEVEL_REGION
+			          : b->ends > 0          ? LEVEL_CROSSING
+			                                 : LEVEL_POINT;
+	}
+	j->marks = out->undecided;
+}
+
+enum status level_regions(struct joint *j, struct level_result *out)
+{
+	const struct bezier_net *net = &j->level->surface->net;
+	struct level_box *b = j->boxes.p;
+	size_t n = j->boxes.n, *parent, *active;
 	double near[2];
 	if (n == 0)
 		return ST_OK;
@@ -100,5 +189,6 @@ enum status level_regions(const struct level *l, struct list *boxes, struct leve
 		}
 	}
 	free(parent);
+	marks_name(j, out, near);
 	return ST_OK;
 }
