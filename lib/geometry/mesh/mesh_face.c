@@ -1,0 +1,226 @@
+/* mesh_face.c - the triangles of one face between its borders. */
+#include "mesh_face.h"
+
+#include <stdlib.h>
+
+#include "curvature.h"
+
+void mesh_face_at(const struct mesh_face *f, const double uv[2], int32_t at[2])
+{
+	for (int d = 0; d < 2; d++) {
+		const double *domain = f->s->domain[d];
+		const double x = (uv[d] - domain[0]) / (domain[1] - domain[0]);
+		at[d] = (int32_t)lrint(fmin(fmax(x, 0), 1) * f->side[d]);
+	}
+}
+
+enum status mesh_face_place(struct mesh_face *f, int vertex, const double uv[2], int point)
+{
+	enum status st =
+	        mesh_grow((void **)&f->places, &f->places_room, vertex + 1, sizeof *f->places);
+	if (st != ST_OK)
+		return st;
+	struct mesh_place *x = &f->places[vertex];
+	*x = (struct mesh_place){ .uv = { uv[0], uv[1] }, .point = point, .patch = -1 };
+	if (point >= 0) {
+		x->p = f->b->out->points[point];
+		return ST_OK;
+	}
+	x->p = surface_point(f->s, uv[0], uv[1]);
+	return mesh_add_point(f->b, x->p, &x->point);
+}
+
+struct vec3 mesh_face_normal(struct mesh_face *f, int vertex, int patch)
+{
+	struct mesh_place *x = &f->places[vertex];
+	if (x->patch == patch)
+		return x->normal;
+	const struct vec3 n = mesh_patch_normal(f->s, f->creases, patch, x->uv);
+	if (x->patch < 0) {
+		x->patch = patch;
+		x->normal = n;
+	}
+	return n;
+}
+
+bool mesh_face_coarse(struct mesh_face *f, int a, int b, int patch)
+{
+	const struct tessellate_limits *l = f->b->limits;
+	const struct mesh_place p = f->places[a], q = f->places[b];
+	const struct vec3 d = vec3_sub(q.p, p.p);
+	const double du = q.uv[0] - p.uv[0], dv = q.uv[1] - p.uv[1], dd = vec3_dot(d, d);
+	const double wiggles = 0.5 * (fabs(du) / f->span[0] * (f->s->order[0] - 1) +
+	                              fabs(dv) / f->span[1] * (f->s->order[1] - 1));
+	const int n = (int)fmin(ceil(wiggles), 24) > 1 ? (int)fmin(ceil(wiggles), 24) : 1;
+	for (int i = 1; i <= n; i++) {
+		const double t = (double)i / (n + 1);
+		const struct vec3 w =
+		        vec3_sub(surface_point(f->s, p.uv[0] + t * du, p.uv[1] + t * dv), p.p);
+		const double at = dd > 0 ? fmin(fmax(vec3_dot(w, d) / dd, 0), 1) : 0;
+		if (vec3_length(vec3_along(w, -at, d)) > l->chord)
+			return true;
+	}
+	if (!(dd > l->chord * l->chord))
+		return false;
+	const struct vec3 m = mesh_face_normal(f, a, patch), k = mesh_face_normal(f, b, patch);
+	return atan2(vec3_length(vec3_cross(m, k)), vec3_dot(m, k)) > l->angle; /* NaN: false */
+}
+
+/*
+ * How long the domain is in each direction, counted in pieces that the tolerances would make: in
+ * these units equal triangles are good ones. A flat direction counts a little, for shape.
+ */
+static void measure_sides(struct mesh_face *f)
+{
+	enum { N = 4 };
+	const struct tessellate_limits *l = f->b->limits;
+	const struct surface *s = f->s;
+	const double du = s->domain[0][1] - s->domain[0][0], dv = s->domain[1][1] - s->domain[1][0];
+	const double flat = 1 / (10 * surface_size(s));
+	double pieces[2] = { 0, 0 };
+	for (int i = 0; i < N; i++)
+		for (int j = 0; j < N; j++) {
+			struct surface_shape x;
+			surface_shape(s, s->domain[0][0] + du * (i + 0.5) / N,
+			              s->domain[1][0] + dv * (j + 0.5) / N, &x);
+			double rate[2];
+			for (int d = 0; d < 2; d++) {
+				const double k = fabs(x.value[QUANTITY_NORMAL_U + d]);
+				rate[d] = k > 0 ? fmax(sqrt(k / (8 * l->chord)), k / l->angle) : 0;
+			}
+			const double least = flat + 0.1 * fmax(rate[0], rate[1]);
+			pieces[0] += vec3_length(x.du) * du * fmax(rate[0], least);
+			pieces[1] += vec3_length(x.dv) * dv * fmax(rate[1], least);
+		}
+	const double ratio = fmin(fmax(pieces[1] / pieces[0], 1.0 / 256), 256);
+	/* halves of halves stay whole */
+	f->side[0] = f->side[1] = NET_SIDE / 2;
+	if (ratio < 1)
+		f->side[1] = (int32_t)(ratio * NET_SIDE / 2048) * 1024;
+	else if (ratio > 1)
+		f->side[0] = (int32_t)(NET_SIDE / ratio / 2048) * 1024;
+}
+
+static void measure_spans(struct mesh_face *f)
+{
+	for (int d = 0; d < 2; d++) {
+		const struct surface *s = f->s;
+		int n = 1;
+		for (int i = 1; i < s->n[d] + s->order[d]; i++)
+			n += s->knots[d][i] > s->knots[d][i - 1] &&
+			     s->knots[d][i] > s->domain[d][0] && s->knots[d][i] < s->domain[d][1];
+		f->span[d] = (s->domain[d][1] - s->domain[d][0]) / n;
+	}
+}
+
+/* A node on a crease gets just the crease's parameter. */
+static void snap(const struct mesh_face *f, const double in[2], double out[2])
+{
+	for (int d = 0; d < 2; d++) {
+		const double near = MESH_ON_CREASE * (f->s->domain[d][1] - f->s->domain[d][0]);
+		out[d] = in[d];
+		for (int k = 0; k < f->creases->n[d]; k++)
+			if (fabs(in[d] - f->creases->at[d][k]) <= near)
+				out[d] = f->creases->at[d][k];
+	}
+}
+
+/* Vertices of the net for all nodes of a loop, then its edges. */
+static enum status fill_loop(struct mesh_face *f, const struct mesh_loop *loop)
+{
+	const struct mesh_edge *edges = f->b->edges;
+	int n = 0, room = 0, *v = NULL;
+	enum status st = ST_OK;
+	for (int k = loop->first; k >= 0; k = edges[k].next)
+		room += edges[k].n_nodes;
+	v = malloc((size_t)(room ? room : 1) * sizeof *v);
+	if (!v)
+		return ST_RESOURCE;
+	for (int k = loop->first; k >= 0 && st == ST_OK; k = edges[k].next)
+		for (int i = 0; i + 1 < edges[k].n_nodes && st == ST_OK; i++) {
+			const struct mesh_node *node = &edges[k].nodes[i];
+			const int before = f->net.n;
+			int32_t at[2];
+			double uv[2];
+			snap(f, node->uv, uv);
+			mesh_face_at(f, uv, at);
+			st = net_add(&f->net, at[0], at[1], &v[n]);
+			if (st == ST_OK && v[n] >= before)
+				st = mesh_face_place(f, v[n], uv, node->point);
+			n++;
+		}
+	for (int i = 0; i < n && st == ST_OK; i++)
+		if (v[i] < 0)
+			st = ST_INPUT;
+		else if (v[i] != v[(i + 1) % n])
+			st = net_fix(&f->net, v[i], v[(i + 1) % n], NET_FIXED | NET_BORDER);
+	free(v);
+	return st;
+}
+
+/* A normal for a corner where the surface has none, a tip: from a little inside the triangle, as seen
+ * between the other two corners. */
+static struct vec3 normal_inside(struct mesh_face *f, const int v[3], int k, int patch)
+{
+	const double *uv = f->places[v[k]].uv, *p = f->places[v[(k + 1) % 3]].uv,
+	             *q = f->places[v[(k + 2) % 3]].uv;
+	struct vec3 at, du, dv;
+	double beside[2];
+	surface_tangents(f->s, uv[0], uv[1], &at, &du, &dv);
+	/* the parameter in which the surface stands still runs about the tip */
+	const int about = vec3_length(du) * f->span[0] < vec3_length(dv) * f->span[1] ? 0 : 1;
+	beside[about] = 0.5 * (p[about] + q[about]);
+	beside[1 - about] =
+	        uv[1 - about] + 1e-3 * (0.5 * (p[1 - about] + q[1 - about]) - uv[1 - about]);
+	const struct vec3 n = mesh_patch_normal(f->s, f->creases, patch, beside);
+	if (isfinite(n.x))
+		return n;
+	const struct vec3 a = f->places[v[0]].p;
+	return vec3_unit(
+	        vec3_cross(vec3_sub(f->places[v[1]].p, a), vec3_sub(f->places[v[2]].p, a)));
+}
+
+static enum status emit(struct mesh_face *f, const int v[3])
+{
+	struct mesh_corner corner[3];
+	double center[2];
+	enum status st = ST_OK;
+	for (int d = 0; d < 2; d++)
+		center[d] =
+		        (f->places[v[0]].uv[d] + f->places[v[1]].uv[d] + f->places[v[2]].uv[d]) / 3;
+	const int patch = mesh_patch_of(f->creases, center);
+	for (int k = 0; k < 3 && st == ST_OK; k++) {
+		struct vec3 n = mesh_face_normal(f, v[k], patch);
+		if (!isfinite(n.x))
+			n = normal_inside(f, v, k, patch);
+		corner[k].point = f->places[v[k]].point;
+		st = mesh_add_normal(f->b, corner[k].point, n, &corner[k].normal);
+	}
+	/* at a pole two corners are one point */
+	if (st != ST_OK || corner[0].point == corner[1].point ||
+	    corner[1].point == corner[2].point || corner[2].point == corner[0].point)
+		return st;
+	return mesh_add_triangle(f->b, corner);
+}
+
+enum status mesh_fill(struct mesh_build *b, int face, int first_loop, int n_loops)
+{
+	struct mesh_face f = { .b = b, .s = b->faces[face].surface, .creases = &b->creases[face] };
+	enum status st = net_init(&f.net);
+	measure_sides(&f);
+	measure_spans(&f);
+	for (int k = 0; k < n_loops && st == ST_OK; k++)
+		st = fill_loop(&f, &b->loops[first_loop + k]);
+	if (st == ST_OK)
+		st = net_classify(&f.net);
+	if (st == ST_OK)
+		st = mesh_face_creases(&f);
+	if (st == ST_OK)
+		st = mesh_face_refine(&f);
+	for (int t = 0; t < f.net.n_triangles && st == ST_OK; t++)
+		if (f.net.triangles[t].inside)
+			st = emit(&f, f.net.triangles[t].v);
+	net_finish(&f.net);
+	free(f.places);
+	return st;
+}

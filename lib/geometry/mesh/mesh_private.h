@@ -1,0 +1,110 @@
+/* mesh_private.h - what the files of the triangulation share.
+ *
+ * Faces are bounded by loops of edges; an edge is a piece of a curve in its face's u, v. Edges end in
+ * vertices, which are places in space that all faces share. Edges that run between the same
+ * vertices within the tolerance are one line in space: they are cut at the same points.
+ */
+#ifndef BATTEN_MESH_PRIVATE_H
+#define BATTEN_MESH_PRIVATE_H
+
+#include "tessellate.h"
+
+/* Of the domain: nearer to a crease counts as on it. */
+#define MESH_ON_CREASE 1e-9
+
+struct mesh_node {
+	double uv[2];
+	int point; /* in the mesh */
+};
+
+struct mesh_sample {
+	double t;
+	struct vec3 p;
+};
+
+struct mesh_edge {
+	int face, next;         /* the edge behind it in its loop; -1: the last one */
+	const struct curve *uv; /* borrowed; NULL: straight from a to b, parameter 0 to 1 */
+	double a[2], b[2];
+	double t[2];                 /* from, to */
+	int vertex[2];               /* at t[0], t[1] */
+	bool degenerate;             /* one point in space */
+	int master;                  /* the edge whose cuts it takes; itself where it has its own */
+	bool reversed;               /* against the master's direction */
+	struct mesh_sample *samples; /* owned; rising t, both ends among them */
+	int n_samples;
+	struct mesh_node *nodes; /* owned; from t[0] to t[1] */
+	int n_nodes;
+};
+
+struct mesh_loop {
+	int face, first; /* its first edge */
+};
+
+/* Parameters at which a surface may have a sharp line. */
+struct mesh_creases {
+	double *at[2]; /* owned; rising, inside the domain */
+	int n[2];
+};
+
+struct mesh_vertex {
+	struct vec3 p;
+	int point; /* in the mesh; -1: not yet */
+};
+
+struct mesh_build {
+	const struct tessellate_face *faces;
+	int n_faces;
+	const struct tessellate_limits *limits;
+	const atomic_bool *stop;
+	const struct report *r;
+	struct mesh *out;
+	int points_room, normals_room, triangles_room, heads_room;
+	int *heads;       /* owned; of each point its first normal, -1: none; then next_normal */
+	int *next_normal; /* owned */
+	int next_room;
+	struct mesh_edge *edges; /* owned */
+	int n_edges, edges_room;
+	struct mesh_loop *loops; /* owned; in order of faces */
+	int n_loops, loops_room;
+	struct mesh_creases *creases; /* owned; one a face */
+	struct mesh_vertex *vertices; /* owned */
+	int n_vertices;
+};
+
+/* tessellate.c */
+enum status mesh_grow(void **p, int *room, int n, size_t size);
+enum status mesh_add_point(struct mesh_build *b, struct vec3 p, int *point);
+/* The normal at that point, one of those there if it is the same. */
+enum status mesh_add_normal(struct mesh_build *b, int point, struct vec3 normal, int *out);
+enum status mesh_add_triangle(struct mesh_build *b, const struct mesh_corner corner[3]);
+
+/* mesh_patch.c: creases part a surface into smooth patches. */
+enum status mesh_find_creases(struct mesh_creases *c, const struct surface *s);
+int mesh_patch_of(const struct mesh_creases *c, const double uv[2]);
+/* The unit normal at the point of a patch next to uv, as seen from inside; NaN where there is none. */
+struct vec3 mesh_patch_normal(const struct surface *s, const struct mesh_creases *c, int patch,
+                              const double uv[2]);
+
+/* mesh_edges.c: edges of all loops, cut at creases. */
+enum status mesh_collect_edges(struct mesh_build *b);
+void mesh_edge_finish(struct mesh_edge *e);
+void mesh_edge_uv(const struct mesh_build *b, const struct mesh_edge *e, double t, double uv[2]);
+struct vec3 mesh_edge_point(const struct mesh_build *b, const struct mesh_edge *e, double t);
+/* The parameter of the edge's point next to p; gives the distance. */
+double mesh_edge_nearest(const struct mesh_build *b, const struct mesh_edge *e, struct vec3 p,
+                         double *t);
+/* Part edge number k at the m rising parameters t; vertex[i] is the vertex at t[i], -1: none yet. */
+enum status mesh_edge_part(struct mesh_build *b, int k, const double *t, const int *vertex, int m);
+enum status mesh_edge_sample(struct mesh_build *b, struct mesh_edge *e);
+
+/* mesh_join.c: vertices, edges parted where others end, edges that are one line. */
+enum status mesh_join(struct mesh_build *b);
+
+/* mesh_cut.c: nodes of every edge. */
+enum status mesh_cut(struct mesh_build *b);
+
+/* mesh_face.c: the triangles of a face whose borders have been cut. */
+enum status mesh_fill(struct mesh_build *b, int face, int first_loop, int n_loops);
+
+#endif
