@@ -1,0 +1,185 @@
+/* peer_occt.cc - Open CASCADE. */
+#include "peer.h"
+
+#include <vector>
+
+#include <GeomAPI_Interpolate.hxx>
+#include <GeomAPI_PointsToBSplineSurface.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <GeomLProp_SLProps.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <IGESControl_Reader.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Standard_Version.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColStd_Array2OfReal.hxx>
+#include <TColgp_Array2OfPnt.hxx>
+#include <TColgp_HArray1OfPnt.hxx>
+
+static const double resolution = 1e-9;
+
+/* A surface and the sum of what was found on it last. */
+struct occt {
+	Handle(Geom_BSplineSurface) s;
+	double sum;
+};
+
+/* Knots each once, with their multiplicities. */
+static void split_knots(const double *k, int n, std::vector<double> &once, std::vector<int> &times)
+{
+	for (int i = 0; i < n; i++)
+		if (once.empty() || k[i] != once.back()) {
+			once.push_back(k[i]);
+			times.push_back(1);
+		} else {
+			times.back()++;
+		}
+}
+
+static void *surface(const struct peer_net *x)
+{
+	TColgp_Array2OfPnt p(1, x->n[0], 1, x->n[1]);
+	TColStd_Array2OfReal w(1, x->n[0], 1, x->n[1]);
+	std::vector<double> once[2];
+	std::vector<int> times[2];
+	for (int i = 0; i < x->n[0]; i++)
+		for (int j = 0; j < x->n[1]; j++) {
+			const double *c = x->points + 4 * (i * x->n[1] + j);
+			p(i + 1, j + 1) = gp_Pnt(c[0] / c[3], c[1] / c[3], c[2] / c[3]);
+			w(i + 1, j + 1) = c[3];
+		}
+	for (int d = 0; d < 2; d++)
+		split_knots(x->knots[d], x->n[d] + x->order[d], once[d], times[d]);
+	const TColStd_Array1OfReal u(once[0][0], 1, (int)once[0].size());
+	const TColStd_Array1OfReal v(once[1][0], 1, (int)once[1].size());
+	const TColStd_Array1OfInteger mu(times[0][0], 1, (int)times[0].size());
+	const TColStd_Array1OfInteger mv(times[1][0], 1, (int)times[1].size());
+	occt *out = new occt();
+	if (x->rational)
+		out->s = new Geom_BSplineSurface(p, w, u, v, mu, mv, x->order[0] - 1,
+		                                 x->order[1] - 1);
+	else
+		out->s = new Geom_BSplineSurface(p, u, v, mu, mv, x->order[0] - 1, x->order[1] - 1);
+	return out;
+}
+
+static void drop(void *data)
+{
+	delete static_cast<occt *>(data);
+}
+
+static void grid_curvatures(void *data, const double *x, int n)
+{
+	GeomLProp_SLProps at(static_cast<occt *>(data)->s, 2, resolution);
+	double sum = 0, others = 0;
+	for (int i = 0; i < n; i++)
+		for (int j = 0; j < n; j++) {
+			at.SetParameters(x[i], x[j]);
+			if (!at.IsCurvatureDefined())
+				continue;
+			sum += at.GaussianCurvature();
+			others += at.MeanCurvature() + at.MaxCurvature() + at.MinCurvature();
+		}
+	static_cast<occt *>(data)->sum = others == others ? sum : 0;
+}
+
+/* The adaptor keeps the span it was in last. */
+static void grid_points(void *data, const double *x, int n)
+{
+	GeomAdaptor_Surface at(static_cast<occt *>(data)->s);
+	gp_Pnt p;
+	double sum = 0;
+	for (int i = 0; i < n; i++)
+		for (int j = 0; j < n; j++) {
+			at.D0(x[i], x[j], p);
+			sum += p.X() + p.Y() + p.Z();
+		}
+	static_cast<occt *>(data)->sum = sum;
+}
+
+static double grid_sum(void *data)
+{
+	return static_cast<occt *>(data)->sum;
+}
+
+static double points(void *data, const double *uv, int n)
+{
+	const Handle(Geom_BSplineSurface) &s = static_cast<occt *>(data)->s;
+	gp_Pnt p;
+	double sum = 0;
+	for (int i = 0; i < n; i++) {
+		s->D0(uv[2 * i], uv[2 * i + 1], p);
+		sum += p.X() + p.Y() + p.Z();
+	}
+	return sum;
+}
+
+static double curvatures(void *data, const double *uv, int n)
+{
+	GeomLProp_SLProps at(static_cast<occt *>(data)->s, 2, resolution);
+	double sum = 0, others = 0;
+	for (int i = 0; i < n; i++) {
+		at.SetParameters(uv[2 * i], uv[2 * i + 1]);
+		if (!at.IsCurvatureDefined())
+			continue;
+		sum += at.GaussianCurvature();
+		others += at.MeanCurvature() + at.MaxCurvature() + at.MinCurvature();
+	}
+	return others == others ? sum : 0;
+}
+
+static bool curvature(void *data, double u, double v, double kh[2], double point[3])
+{
+	GeomLProp_SLProps at(static_cast<occt *>(data)->s, u, v, 2, resolution);
+	if (!at.IsCurvatureDefined())
+		return false;
+	kh[0] = at.GaussianCurvature();
+	kh[1] = at.MeanCurvature();
+	for (int c = 0; c < 3; c++)
+		point[c] = at.Value().Coord(c + 1);
+	return true;
+}
+
+static int interpolate_curve(const double *xyz, int n)
+{
+	Handle(TColgp_HArray1OfPnt) p = new TColgp_HArray1OfPnt(1, n);
+	for (int i = 0; i < n; i++)
+		p->SetValue(i + 1, gp_Pnt(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]));
+	GeomAPI_Interpolate x(p, Standard_False, resolution);
+	x.Perform();
+	return x.IsDone() ? x.Curve()->NbPoles() : 0;
+}
+
+static int interpolate_surface(const double *xyz, int n)
+{
+	TColgp_Array2OfPnt p(1, n, 1, n);
+	for (int j = 0; j < n; j++)
+		for (int i = 0; i < n; i++, xyz += 3)
+			p(i + 1, j + 1) = gp_Pnt(xyz[0], xyz[1], xyz[2]);
+	GeomAPI_PointsToBSplineSurface x;
+	x.Interpolate(p);
+	return x.IsDone() ? x.Surface()->NbUPoles() * x.Surface()->NbVPoles() : 0;
+}
+
+static int read_iges(const char *path)
+{
+	Message::DefaultMessenger()->ChangePrinters().Clear();
+	IGESControl_Reader reader;
+	if (reader.ReadFile(path) != IFSelect_RetDone)
+		return 0;
+	reader.TransferRoots();
+	return reader.NbShapes();
+}
+
+const struct peer peer_occt = {
+	"Open CASCADE",    OCC_VERSION_COMPLETE,
+	surface,           drop,
+	grid_curvatures,   grid_points,
+	grid_sum,          points,
+	curvatures,        curvature,
+	interpolate_curve, interpolate_surface,
+	read_iges,
+};
