@@ -11,7 +11,7 @@ usage: ./test.sh [--long]
 
 Installs what is missing, builds twice (release with gcc; address and undefined behaviour sanitizers
 with clang) and runs all tests. BATTEN_DATA names a folder of IGES files with reference values; tests that
-need it are skipped where it is unset. --long adds valgrind and fuzzing.
+need it are skipped where it is unset. --long adds valgrind, fuzzing and fault injection at scale.
 EOT
 	[ "${1-}" = --help ] || exit 2
 	exit 0
@@ -43,6 +43,7 @@ run build-sanitize --timeout-multiplier 4
 if [ -n "$long" ]; then
 	run build-test --suite common --suite geometry --suite files --suite ipc --timeout-multiplier 30 \
 		--wrapper 'valgrind -q --leak-check=full --error-exitcode=9'
+	BATTEN_LONG=1 run build-test --suite fault --timeout-multiplier 30
 	CC=clang build build-fuzz -Dfuzz=true -Dtests=enabled -Db_sanitize=address,undefined -Db_lundef=false \
 		-Dc_args=-fsanitize=fuzzer-no-link -Doptimization=1
 	run build-fuzz --suite fuzz --timeout-multiplier 20

@@ -305,6 +305,7 @@ enum status service_run(const struct project *p, const struct settings *settings
 	enum status st = lock_take(p, ready >= 0, &s->lock, r);
 	if (st == ST_OK) {
 		signal(SIGPIPE, SIG_IGN);
+		signal(SIGXFSZ, SIG_IGN); /* a file grown too large is a write that fails */
 		s->project = p;
 		s->idle_s = settings_number(settings, SETTING_IDLE);
 		s->clock = (struct clock){ .elapsed = clock_elapsed, .date = clock_date };

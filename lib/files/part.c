@@ -199,6 +199,15 @@ static enum status create(struct part **out, const char *path, size_t n_units,
 	return ST_OK;
 }
 
+/* Does a part file begin so? One cut short does, and one whose size reached the disk before a power
+ * cut, but not its bytes: it begins with zeros. */
+static bool begins_part(const char *bytes, size_t n)
+{
+	static const char zeros[MAGIC_SIZE];
+	n = n < MAGIC_SIZE ? n : MAGIC_SIZE;
+	return !memcmp(bytes, magic, n) || !memcmp(bytes, zeros, n);
+}
+
 /* Read what there is. *same: the file begins with p's header. */
 static enum status load(struct part *p, bool *same, const struct report *r)
 {
@@ -213,7 +222,7 @@ static enum status load(struct part *p, bool *same, const struct report *r)
 	enum status status = map_file(p, size, size, &file, r);
 	if (status != ST_OK)
 		return status;
-	if (memcmp(file, magic, size < MAGIC_SIZE ? (size_t)size : MAGIC_SIZE) != 0)
+	if (!begins_part(file, (size_t)size))
 		return report_error(r, ST_INPUT, "'%s' is no part file; name another one", p->path);
 	*same = size >= p->header.n && memcmp(file, p->header.s, p->header.n) == 0;
 	if (*same)
@@ -388,9 +397,10 @@ void part_discard(const char *path)
 	char begin[MAGIC_SIZE];
 	if (!path_exists(path) || create(&p, path, 0, &report_none) != ST_OK)
 		return;
-	if (open_locked(p, O_RDONLY, LOCK_EX, &report_none) == ST_OK &&
-	    pread(p->fd, begin, sizeof begin, 0) == MAGIC_SIZE &&
-	    memcmp(begin, magic, MAGIC_SIZE) == 0)
+	ssize_t n = open_locked(p, O_RDONLY, LOCK_EX, &report_none) == ST_OK
+	                    ? pread(p->fd, begin, sizeof begin, 0)
+	                    : -1;
+	if (n >= 0 && begins_part(begin, (size_t)n))
 		unlink(path);
 	part_close(p);
 }

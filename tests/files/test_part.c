@@ -207,6 +207,32 @@ static void write_part(const char *at, const char *bytes, size_t n)
 	fclose(f);
 }
 
+/* After a power cut a file may have its length and not its bytes. */
+static void test_zeros(void **state)
+{
+	(void)state;
+	static const size_t sizes[] = { 0, 3, 8, 4000 };
+	for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+		struct part *p;
+		for (int discard = 0; discard < 2; discard++) {
+			FILE *f = fopen(path, "w");
+			assert_non_null(f);
+			assert_int_equal(ftruncate(fileno(f), (off_t)sizes[i]), 0);
+			fclose(f);
+			if (discard) {
+				part_discard(path);
+				assert_int_equal(access(path, F_OK), -1);
+				continue;
+			}
+			assert_int_equal(part_open(&p, path, key, UNITS, NULL), ST_OK);
+			assert_int_equal(part_count(p), 0);
+			assert_int_equal(put(p, 3), ST_OK);
+			expect_unit(p, 3);
+			part_remove(p);
+		}
+	}
+}
+
 /* Cut after every byte: the whole units before the cut are there, the torn one is cut off. */
 static void test_cut(void **state)
 {
@@ -368,6 +394,7 @@ int main(void)
 		cmocka_unit_test_setup_teardown(test_key, enter, leave),
 		cmocka_unit_test_setup_teardown(test_no_part_file, enter, leave),
 		cmocka_unit_test_setup_teardown(test_lock, enter, leave),
+		cmocka_unit_test_setup_teardown(test_zeros, enter, leave),
 		cmocka_unit_test_setup_teardown(test_cut, enter, leave),
 		cmocka_unit_test_setup_teardown(test_damage, enter, leave),
 		cmocka_unit_test_setup_teardown(test_damage_while_open, enter, leave),
