@@ -83,7 +83,7 @@ struct level_branch {
 };
 
 /*
- * What stays undecided, by what is certain round it. Points and crossings are small: a part in 100,000
+ * What stays undecided, by what is certain round it. Points and crossings are small: a part in 10,000
  * of the surface, or below the tolerance. The branches that reach a crossing end in the same point
  * there, the middle of its box, if they can within the tolerance; else at its border.
  */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Marks no larger than this part of the size are a point, if the tolerance is not larger. */
-static const double point_share = 1e-5;
+static const double point_share = 1e-4;
 
 static int box_compare(const void *x, const void *y)
 {
