@@ -5,6 +5,7 @@
 #include "curvature_survey.h"
 #include "curvature_view.h"
 #include "grid.h"
+#include "image.h"
 #include "json.h"
 #include "number.h"
 
@@ -18,6 +19,7 @@ struct state {
 	int nu, nv;
 	double *u, *v; /* owned */
 	struct grid *grid;
+	struct trim_test *trim; /* NULL: all of the surface counts */
 	struct exr_channel channels[N_QUANTITIES];
 	struct exr_image image; /* without attributes */
 	enum quantity shown;
@@ -32,10 +34,12 @@ struct extremes {
 	double lo[N_QUANTITIES], hi[N_QUANTITIES]; /* lo > hi: no value */
 	double lo_uv[N_QUANTITIES][2], hi_uv[N_QUANTITIES][2];
 	uint64_t undefined; /* samples without some value */
+	uint64_t outside;   /* trimmed away */
 };
 
 static const struct param params[] = {
 	PARAM_ROW_GRID("512x512"),
+	PARAM_ROW_TRIMMED,
 	{ .name = "quantity",
 	  .type = PARAM_CHOICE,
 	  .def = "K",
@@ -121,6 +125,8 @@ static enum status curvature_begin(struct work *w)
 		                       .channels = s->channels,
 		                       .n_channels = N_QUANTITIES };
 	st = grid_create(&s->grid, surface, s->u, s->nu, s->v, s->nv);
+	if (st == ST_OK && work_flag(w, "trimmed") && w->entities[0]->trim.n)
+		st = trim_test_create(&s->trim, &w->entities[0]->trim, surface);
 	if (st == ST_OK && work_has(w, "view"))
 		st = curvature_view_create(&s->view, w);
 	return st;
@@ -133,6 +139,7 @@ static void curvature_end(struct work *w)
 		return;
 	curvature_view_destroy(s->view);
 	grid_destroy(s->grid);
+	trim_test_destroy(s->trim);
 	free(s->u);
 	free(s->v);
 	free(s);
@@ -164,6 +171,26 @@ static void extremes_add(struct extremes *e, int q, double lo, const double lo_u
 		e->hi[q] = hi;
 		memcpy(e->hi_uv[q], hi_uv, sizeof e->hi_uv[q]);
 	}
+}
+
+/* What the trim takes away of a tile has no values. */
+static void trim_tile(struct extremes *e, const struct state *s, int from, int first, int width,
+                      int height, double *const *values)
+{
+	const double lo[2] = { s->u[from], s->v[first] };
+	const double hi[2] = { s->u[from + width - 1], s->v[first + height - 1] };
+	int left = trim_test_box(s->trim, lo, hi);
+	if (left > 0)
+		return;
+	for (int row = 0; row < height; row++)
+		for (int column = 0; column < width; column++) {
+			if (left == 0 &&
+			    trim_test_inside(s->trim, s->u[from + column], s->v[first + row]))
+				continue;
+			for (int q = 0; q < N_QUANTITIES; q++)
+				values[q][(size_t)row * width + column] = NAN;
+			e->outside++;
+		}
 }
 
 /* The values of a tile, rows of rising v, become planes with v upward, and their extremes. */
@@ -205,6 +232,8 @@ static enum status map_tile(const struct state *s, size_t tile, struct text *out
 	if (st == ST_OK) {
 		struct extremes e;
 		extremes_init(&e);
+		if (s->trim)
+			trim_tile(&e, s, x, first, width, height, channels);
 		take_tile(&e, s, x, first, width, height, channels, planes);
 		text_add_bytes(out, &e, sizeof e);
 		st = exr_pack(&s->image, tile, (const float *const *)planes, out);
@@ -255,10 +284,12 @@ static enum status state_figures(struct work *w)
 		for (int q = 0; q < N_QUANTITIES; q++)
 			extremes_add(&all, q, e.lo[q], e.lo_uv[q], e.hi[q], e.hi_uv[q]);
 		all.undefined += e.undefined;
+		all.outside += e.outside;
 	}
 	json_t *figures = json_object();
 	json_set_int(figures, "samples", (int64_t)s->nu * s->nv);
-	json_set_int(figures, "undefined", (int64_t)all.undefined);
+	json_set_int(figures, "outside", (int64_t)all.outside);
+	json_set_int(figures, "undefined", (int64_t)(all.undefined - all.outside));
 	for (int q = 0; q < N_QUANTITIES; q++) {
 		bool found = all.lo[q] <= all.hi[q];
 		set_figure(figures, q, "min", all.lo[q], all.lo_uv[q], found);
@@ -289,8 +320,8 @@ static enum status make_pictures(struct work *w)
 {
 	struct state *s = w->state;
 	struct curvature_survey survey;
-	enum status st =
-	        curvature_survey_init(&survey, w, s->grid, s->nu, s->nv, s->shown, s->scale);
+	const struct curvature_grid lines = { s->grid, s->trim, s->u, s->v, s->nu, s->nv };
+	enum status st = curvature_survey_init(&survey, w, &lines, s->shown, s->scale);
 	if (st != ST_OK)
 		return st;
 	if (s->by_hand)
@@ -317,7 +348,7 @@ static enum status curvature_finish(struct work *w)
 const struct worker worker = {
 	.name = "curvature",
 	.title = "curvature map",
-	.version = 1,
+	.version = 2,
 	.help = "Gaussian, mean, absolute, principal and normal curvatures of a surface on a grid of its "
 	        "parameters: image x is u, image y is v with v upward, both ends of the domain "
 	        "included. With --view also as seen from a camera.",

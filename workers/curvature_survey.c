@@ -100,9 +100,10 @@ static double strip_area(const struct strip *p, int column, int row, int nv)
 	return vec3_length(vec3_cross(du, dv)) / 4;
 }
 
-static enum status survey_rows(struct curvature_survey *s, const struct grid *g, int first,
-                               int count)
+static enum status survey_rows(struct curvature_survey *s, const struct curvature_grid *lines,
+                               int first, int count)
 {
+	const struct grid *g = lines->grid;
 	struct strip p;
 	int from = clamp(first - 1, s->nv), to = clamp(first + count, s->nv);
 	enum status st = strip_init(&p, g, POINTS | GRID_BIT((unsigned)s->shown), from,
@@ -113,34 +114,43 @@ static enum status survey_rows(struct curvature_survey *s, const struct grid *g,
 			size_t k = (size_t)(row - from) * s->nu + column;
 			s->values[i] = (float)p.channels[s->shown][k];
 			s->areas[i] = (float)strip_area(&p, column, row, s->nv);
+			if (!lines->trim)
+				continue;
+			s->shade[i] = 1;
+			if (!trim_test_inside(lines->trim, lines->u[column], lines->v[row]))
+				s->values[i] = s->areas[i] = s->shade[i] = NAN;
 		}
 	strip_finish(&p);
 	return st;
 }
 
-static enum status survey(struct curvature_survey *s, const struct grid *g)
+static enum status survey(struct curvature_survey *s, const struct curvature_grid *lines)
 {
 	for (int row = 0; row < s->nv; row += STRIP) {
 		int count = row + STRIP < s->nv ? STRIP : s->nv - row;
 		if (work_cancelled(s->w))
 			return ST_CANCELLED;
 		work_phase(s->w, "drawing", row, s->nv);
-		enum status st = survey_rows(s, g, row, count);
+		enum status st = survey_rows(s, lines, row, count);
 		if (st != ST_OK)
 			return st;
 	}
 	return ST_OK;
 }
 
-enum status curvature_survey_init(struct curvature_survey *s, struct work *w, const struct grid *g,
-                                  int nu, int nv, enum quantity shown, enum colormap_scale scale)
+enum status curvature_survey_init(struct curvature_survey *s, struct work *w,
+                                  const struct curvature_grid *lines, enum quantity shown,
+                                  enum colormap_scale scale)
 {
+	const int nu = lines->nu, nv = lines->nv;
 	size_t n = (size_t)nu * nv;
 	const struct quantity_row *row = &quantity_table[shown];
 	*s = (struct curvature_survey){ .w = w, .nu = nu, .nv = nv, .shown = shown };
 	s->values = malloc(n * sizeof *s->values);
 	s->areas = malloc(n * sizeof *s->areas);
-	enum status st = s->values && s->areas ? survey(s, g) : ST_RESOURCE;
+	s->shade = lines->trim ? malloc(n * sizeof *s->shade) : NULL;
+	bool room = s->values && s->areas && (s->shade || !lines->trim);
+	enum status st = room ? survey(s, lines) : ST_RESOURCE;
 	if (st == ST_OK) {
 		double size = surface_size(w->surfaces[0]);
 		double rounding = size > 0 ? curvature_rounding / pow(size, row->power) : 0;
@@ -157,6 +167,7 @@ void curvature_survey_finish(struct curvature_survey *s)
 {
 	free(s->values);
 	free(s->areas);
+	free(s->shade);
 	*s = (struct curvature_survey){ .values = NULL };
 }
 
@@ -175,6 +186,7 @@ enum status curvature_survey_write(void *data, const char *path, const struct re
 			.width = s->nu,
 			.height = s->nv,
 			.values = s->values,
+			.shade = s->shade,
 			.weights = s->nu > 1 && s->nv > 1 ? s->areas : NULL,
 			.title = title,
 			.note = note,

@@ -9,6 +9,21 @@
 
 enum { PICTURE_SIDE = 32767 }; /* Cairo's limit */
 
+/* The scene, of what the trims leave if they count. */
+static enum status make_scene(struct image *im, struct work *w)
+{
+	const struct trim **trims = calloc(w->n_surfaces, sizeof *trims);
+
+	if (!trims)
+		return ST_RESOURCE;
+	for (int i = 0; work_flag(w, "trimmed") && i < w->n_surfaces; i++)
+		trims[i] = &w->entities[i]->trim;
+	enum status st = ray_scene_create_trimmed(&im->scene, w->surfaces, trims, w->n_surfaces,
+	                                          w->memory, &w->report);
+	free((void *)trims);
+	return st;
+}
+
 enum status image_init(struct image *im, struct work *w, const char *view, int width, int height,
                        int samples, const struct exr_channel *channels, int n_channels)
 {
@@ -19,8 +34,7 @@ enum status image_init(struct image *im, struct work *w, const char *view, int w
 		                    "most; make it smaller or leave --png out",
 		                    width, height, PICTURE_SIDE);
 	work_phase(w, "preparing", 0, 1);
-	enum status st =
-	        ray_scene_create(&im->scene, w->surfaces, w->n_surfaces, w->memory, &w->report);
+	enum status st = make_scene(im, w);
 	if (st != ST_OK)
 		return st;
 
@@ -183,7 +197,11 @@ enum status image_gather(const struct image *im, struct work *w, json_t **figure
 	*figures = json_object();
 	if (!*figures)
 		return ST_RESOURCE;
+	int trimmed = 0;
+	for (int i = 0; i < w->n_surfaces; i++)
+		trimmed += ray_scene_trim(im->scene, i) != NULL;
 	json_set_int(*figures, "surfaces", w->n_surfaces);
+	json_set_int(*figures, "trimmed", trimmed);
 	json_set_int(*figures, "leaves", (int64_t)ray_scene_leaves(im->scene));
 	json_set_int(*figures, "width", im->exr.width);
 	json_set_int(*figures, "height", im->exr.height);

@@ -23,6 +23,13 @@ enum { IMAGE_TILE = 64, IMAGE_SAMPLES_MAX = 8 };
 		.max = IMAGE_SAMPLES_MAX, .help = "rays across a pixel: 3 makes 3 x 3 of them"     \
 	}
 
+/* Of the workers whose surfaces may be trimmed. */
+#define PARAM_ROW_TRIMMED                                                                          \
+	{                                                                                          \
+		.name = "trimmed", .type = PARAM_FLAG, .def = "yes",                               \
+		.help = "leave out what the file's trimming loops cut away"                        \
+	}
+
 struct image {
 	struct ray_scene *scene; /* owned */
 	struct camera camera;
@@ -40,7 +47,8 @@ struct image_stats {
 };
 
 /*
- * Prepare the scene of all the work's surfaces and a camera on it. view NULL: the default.
+ * Prepare the scene of all the work's surfaces, trimmed where the parameter `trimmed` says so, and
+ * a camera on it. view NULL: the default.
  * The channels' names are borrowed (string constants).
  * Errors: those of ray_scene_create and camera_fit.
  */
@@ -81,8 +89,8 @@ double image_depth(const struct image *im, struct vec3 p);
 /* Pack the planes and hand the unit over. */
 enum status image_tile_put(const struct image_tile *t, struct work *w);
 
-/* In finish: statistics of all units, as figures: surfaces, leaves, pixels, rays, width, height,
- * depth_min, depth_max (null where nothing was hit). New reference, NULL for want of memory. */
+/* In finish: statistics of all units, as figures: surfaces, trimmed (how many of them), leaves,
+ * pixels, rays, width, height, depth_min, depth_max (null where nothing was hit). New reference, NULL for want of memory. */
 enum status image_gather(const struct image *im, struct work *w, json_t **figures);
 
 /* Packed bytes of a unit without its statistics, for an exr_source of one's own. */

@@ -17,6 +17,7 @@ static const struct param raytrace_params[] = {
 	PARAM_ROW_VIEW(NULL),
 	PARAM_ROW_SIZE("1024x768"),
 	PARAM_ROW_SAMPLES("3"),
+	PARAM_ROW_TRIMMED,
 	LOOK_ROWS,
 	{ .name = "shadows", .type = PARAM_FLAG, .def = "yes",
 	  .help = "surfaces keep the light from each other" },
@@ -288,7 +289,7 @@ static enum status raytrace_finish(struct work *w)
 const struct worker worker = {
 	.name = "raytrace",
 	.title = "ray traced image",
-	.version = 1,
+	.version = 2,
 	.help = "The surfaces themselves ray traced, no triangles: shadows, mirrors, and light "
 	        "stripes that show where a surface is not fair.",
 	.scene = true,

@@ -17,11 +17,12 @@ static const struct param shading_params[] = {
 	PARAM_ROW_VIEW(NULL),
 	PARAM_ROW_SIZE("1024x768"),
 	PARAM_ROW_SAMPLES("3"),
+	PARAM_ROW_TRIMMED,
 	LOOK_ROWS,
 	{ .name = "wire", .type = PARAM_SIZE, .min = 1, .max = 1000,
 	  .help = "draw that many steps of isoparametric lines in u by v on each surface" },
 	{ .name = "edges", .type = PARAM_FLAG, .def = "no",
-	  .help = "draw the borders of the patches (the knot lines)" },
+	  .help = "draw the borders of the patches (the knot lines) and of what is trimmed" },
 	{ .name = "line-width", .type = PARAM_REAL, .def = "1", .min = 0.1, .max = 100,
 	  .unit = "px", .help = "width of the lines" },
 	PARAM_ROW_PNG,
@@ -199,6 +200,21 @@ static bool hit_gradients(const struct shading *s, const struct surface *f, cons
 	return true;
 }
 
+/* Does a loop of its trim run through the line's width on the side of the point that is left? */
+static bool on_loop(const struct shading *s, const struct ray_hit *h, const double gradient[2])
+{
+	const struct trim_test *trim = ray_scene_trim(s->image.scene, h->surface);
+	double lo[2], hi[2];
+
+	for (int d = 0; d < 2; d++) {
+		double t = d ? h->v : h->u, reach = s->line_width * gradient[d];
+
+		lo[d] = t - reach;
+		hi[d] = t + reach;
+	}
+	return trim && trim_test_box(trim, lo, hi) == 0;
+}
+
 static double hit_lines(const struct shading *s, const struct work *w, const struct ray *r,
                         const struct ray_hit *h)
 {
@@ -217,6 +233,8 @@ static double hit_lines(const struct shading *s, const struct work *w, const str
 			cover = fmax(cover, 0.85 * lines_cover(&s->edges[i], t, gradient[d],
 			                                       s->line_width, s->image.samples));
 	}
+	if (s->edges && cover < 0.85 && on_loop(s, h, gradient))
+		cover = 0.85;
 	return cover;
 }
 
@@ -289,7 +307,7 @@ static enum status shading_finish(struct work *w)
 const struct worker worker = {
 	.name = "shading",
 	.title = "shaded image",
-	.version = 1,
+	.version = 2,
 	.help = "The surfaces seen from a camera with one light: color, depth, exact normals and "
 	        "points of every pixel.",
 	.scene = true,
