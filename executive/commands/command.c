@@ -12,6 +12,7 @@ const struct command *const command_table[] = {
 	&command_config,
 	&command_doctor,
 	&command_eval,
+	&command_export,
 	&command_help_verb,
 	&command_hold,
 	&command_import,

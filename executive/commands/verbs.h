@@ -8,6 +8,7 @@ extern const struct command command_activate;
 extern const struct command command_config;
 extern const struct command command_doctor;
 extern const struct command command_eval;
+extern const struct command command_export;
 extern const struct command command_help_verb;
 extern const struct command command_hold;
 extern const struct command command_import;

@@ -6,7 +6,7 @@ import subprocess
 
 import end
 
-VERBS = ("activate config doctor eval help hold import info jobs kill log priority prune release retry run "
+VERBS = ("activate config doctor eval export help hold import info jobs kill log priority prune release retry run "
          "serve shutdown submit suspend wait workers").split()
 
 

@@ -185,6 +185,12 @@ static enum status emit(struct mesh_face *f, const int v[3])
 	struct mesh_corner corner[3];
 	double center[2];
 	enum status st = ST_OK;
+	for (int k = 0; k < 3; k++)
+		corner[k].point = f->places[v[k]].point;
+	/* at a pole two corners are one point */
+	if (corner[0].point == corner[1].point || corner[1].point == corner[2].point ||
+	    corner[2].point == corner[0].point)
+		return ST_OK;
 	for (int d = 0; d < 2; d++)
 		center[d] =
 		        (f->places[v[0]].uv[d] + f->places[v[1]].uv[d] + f->places[v[2]].uv[d]) / 3;
@@ -193,14 +199,9 @@ static enum status emit(struct mesh_face *f, const int v[3])
 		struct vec3 n = mesh_face_normal(f, v[k], patch);
 		if (!isfinite(n.x))
 			n = normal_inside(f, v, k, patch);
-		corner[k].point = f->places[v[k]].point;
 		st = mesh_add_normal(f->b, corner[k].point, n, &corner[k].normal);
 	}
-	/* at a pole two corners are one point */
-	if (st != ST_OK || corner[0].point == corner[1].point ||
-	    corner[1].point == corner[2].point || corner[2].point == corner[0].point)
-		return st;
-	return mesh_add_triangle(f->b, corner);
+	return st == ST_OK ? mesh_add_triangle(f->b, corner) : st;
 }
 
 enum status mesh_fill(struct mesh_build *b, int face, int first_loop, int n_loops)

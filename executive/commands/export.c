@@ -1,0 +1,274 @@
+/* export.c - geometry for other programs. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base.h"
+#include "csv.h"
+#include "export_mesh.h"
+#include "g2.h"
+#include "iges.h"
+#include "json.h"
+#include "number.h"
+#include "path.h"
+#include "reading.h"
+#include "verbs.h"
+
+static const struct option_row export_options[] = {
+	{ "--to", NULL, "FILE", "file to write; its extension says in which format" },
+	{ "--tolerance", NULL, "T",
+	  "largest distance of triangles from the surface, in file units (default: a thousandth of "
+	  "the size)" },
+	{ "--angle", NULL, "DEG",
+	  "largest angle between normals along an edge of a triangle (default: 15)" },
+	{ 0 },
+};
+
+static bool any(const struct entity *e)
+{
+	(void)e;
+	return true;
+}
+
+static bool is_surface(const struct entity *e)
+{
+	return e->kind == ENTITY_SURFACE;
+}
+
+static bool is_points(const struct entity *e)
+{
+	return e->kind == ENTITY_POINTS;
+}
+
+static bool is_spline(const struct entity *e)
+{
+	return e->kind == ENTITY_CURVE || e->kind == ENTITY_SURFACE ||
+	       (e->kind == ENTITY_CURVE_ON_SURFACE && e->space.order > 0);
+}
+
+/* A format: who writes it, and which entities it can hold. */
+static const struct format {
+	const char *extension, *holds;
+	bool (*takes)(const struct entity *e);
+	enum status (*write)(const struct model *m, const char *path, const struct report *r);
+	mesh_writer *write_mesh;
+} formats[] = {
+	{ ".base", "all geometry", any, base_write, NULL },
+	{ ".csv", "points", is_points, csv_write, NULL },
+	{ ".g2", "curves, surfaces and points in space", g2_holds, g2_write, NULL },
+	{ ".iges", "curves and surfaces", is_spline, iges_write, NULL },
+	{ ".igs", "curves and surfaces", is_spline, iges_write, NULL },
+	{ ".obj", "surfaces as triangles", is_surface, NULL, obj_write },
+	{ ".ply", "surfaces as triangles", is_surface, NULL, ply_write },
+	{ ".stl", "surfaces as triangles", is_surface, NULL, stl_write },
+};
+
+static const struct format *find_format(const char *path)
+{
+	const char *extension = path_extension(path);
+	for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+		if (!strcasecmp(extension, formats[i].extension))
+			return &formats[i];
+	return NULL;
+}
+
+/* What is to be written, from all the files named. */
+struct collection {
+	const struct format *format;
+	struct model all;
+	const char *first; /* file that gave the unit */
+	int left_out;      /* entities that the format cannot hold */
+};
+
+static enum status same_unit(struct collection *c, const struct model *m, const char *file,
+                             const struct report *r)
+{
+	enum status st = ST_OK;
+	if (!c->first) {
+		c->first = file;
+		c->all.unit_in_mm = m->unit_in_mm;
+		c->all.scale = m->scale;
+		st = model_set_text(&c->all.unit, m->unit);
+	} else if (c->all.unit_in_mm != m->unit_in_mm || c->all.scale != m->scale) {
+		return report_error(r, ST_INPUT,
+		                    "'%s' is in %s, '%s' in %s; one file has one unit, export them "
+		                    "to two",
+		                    c->first, c->all.unit ? c->all.unit : "an unknown unit", file,
+		                    m->unit ? m->unit : "an unknown unit");
+	}
+	return st;
+}
+
+/*
+ * Move the entities meant from one file to the collection: the chosen one, with the surface that a
+ * curve lies on, or all that have a number; a .base file gets all that those are made of too.
+ */
+static enum status collect(struct collection *c, struct model *m, const struct entity *chosen)
+{
+	int *place = malloc(((size_t)m->n + 1) * sizeof *place);
+	enum status st = place ? ST_OK : ST_RESOURCE;
+	const int base = chosen && chosen->kind == ENTITY_CURVE_ON_SURFACE ? chosen->surface : -1;
+	for (int k = 0; k < m->n && st == ST_OK; k++) {
+		struct entity *e = &m->entities[k];
+		const bool meant = chosen ? e == chosen : e->number > 0;
+		const bool needed =
+		        c->format->takes == any && (chosen ? k == base : e->number == 0);
+		place[k] = -1;
+		if (meant && !c->format->takes(e)) {
+			c->left_out++;
+			continue;
+		}
+		if (!meant && !needed)
+			continue;
+		e->used = !meant;
+		place[k] = c->all.n;
+		st = model_add(&c->all, e);
+	}
+	for (int k = 0; k < m->n && st == ST_OK; k++) {
+		struct entity *e = place[k] < 0 ? NULL : &c->all.entities[place[k]];
+		if (e && e->kind == ENTITY_CURVE_ON_SURFACE && e->surface >= 0)
+			e->surface = place[e->surface];
+	}
+	free(place);
+	return st;
+}
+
+static enum status collect_name(struct collection *c, const char *name, const struct report *r)
+{
+	struct model m;
+	struct entity *chosen;
+	enum status st = reading_open(&m, name, &chosen, r);
+	if (st != ST_OK)
+		return st;
+	for (int k = 0; k < m.n_warnings; k++)
+		report_warning(r, "%s: %s", name, m.warnings[k]);
+	for (int k = 0; k < m.n_skipped && !chosen; k++)
+		report_warning(r, "%s: skipped %d of type %d: %s", name, m.skipped[k].count,
+		               m.skipped[k].type, m.skipped[k].reason);
+	st = same_unit(c, &m, name, r);
+	/* a file written whole keeps what is known of how it was made */
+	for (int k = 0; k < m.n_attributes && st == ST_OK && !chosen; k++)
+		st = model_set_attribute(&c->all, m.attributes[k].name, m.attributes[k].value);
+	if (st == ST_OK)
+		st = collect(c, &m, chosen);
+	if (st == ST_RESOURCE)
+		report_error(r, st, "memory ran out");
+	model_finish(&m);
+	return st;
+}
+
+static int count_numbered(const struct model *m)
+{
+	int n = 0;
+	for (int k = 0; k < m->n; k++)
+		n += m->entities[k].number > 0;
+	return n;
+}
+
+/* An option's number in (0, most], or `fallback`. */
+static enum status positive(const struct invocation *i, const char *option, double most,
+                            double fallback, double *out)
+{
+	const char *text = invocation_value(i, option);
+	*out = fallback;
+	if (!text)
+		return ST_OK;
+	if (!number_parse(text, out) || !(*out > 0) || *out > most)
+		return report_error(&i->report, ST_PARAMETER, "%s %s: expected a number above 0%s",
+		                    option, text, isfinite(most) ? " and at most 180" : "");
+	return ST_OK;
+}
+
+static void tell(const struct collection *c, const char *to, const struct mesh_figures *f)
+{
+	printf("%s: %d %s", to, count_numbered(&c->all),
+	       count_numbered(&c->all) == 1 ? "entity" : "entities");
+	if (c->format->write_mesh) {
+		printf(", %d triangles within %.4g and %g degrees", f->triangles, f->tolerance,
+		       f->angle);
+		if (f->open_edges)
+			printf(", %d edges open", f->open_edges);
+		else
+			printf(", closed");
+	}
+	putchar('\n');
+}
+
+static json_t *result_json(const struct collection *c, const char *to, const struct mesh_figures *f)
+{
+	const bool mesh = c->format->write_mesh;
+	json_t *o = json_object();
+	json_set_text(o, "file", to);
+	json_set_text(o, "format", c->format->extension + 1);
+	json_set_int(o, "entities", count_numbered(&c->all));
+	json_set_int(o, "left_out", c->left_out);
+	json_object_set_new(o, "triangles", mesh ? json_integer(f->triangles) : json_null());
+	json_object_set_new(o, "points", mesh ? json_integer(f->points) : json_null());
+	json_object_set_new(o, "open_edges", mesh ? json_integer(f->open_edges) : json_null());
+	json_set_number(o, "tolerance", mesh ? f->tolerance : NAN);
+	json_set_number(o, "angle", mesh ? f->angle : NAN);
+	return o;
+}
+
+static enum status export_all(const struct invocation *i, struct collection *c, const char *to,
+                              struct mesh_figures *f)
+{
+	const struct report *r = &i->report;
+	double tolerance, angle;
+	enum status st = positive(i, "--tolerance", INFINITY, 0, &tolerance);
+	if (st == ST_OK)
+		st = positive(i, "--angle", 180, 15, &angle);
+	for (int k = 0; k < i->n_words && st == ST_OK; k++)
+		st = collect_name(c, i->words[k], r);
+	if (st != ST_OK)
+		return st;
+	model_number(&c->all);
+	if (!count_numbered(&c->all))
+		return report_error(r, ST_INPUT, "'%s' holds %s, and nothing named is that", to,
+		                    c->format->holds);
+	if (c->left_out)
+		report_warning(r, "%d left out: '%s' holds %s", c->left_out, to, c->format->holds);
+	if (c->format->write_mesh)
+		return export_mesh(&c->all, c->format->write_mesh, to, tolerance, angle, f, r);
+	return c->format->write(&c->all, to, r);
+}
+
+static int export_run(const struct invocation *i)
+{
+	const char *to = invocation_value(i, "--to");
+	struct collection c = { .format = to ? find_format(to) : NULL };
+	struct mesh_figures figures = { 0 };
+
+	if (!i->n_words || !to)
+		return status_exit(report_error(&i->report, ST_PARAMETER,
+		                                "name what to export, and the file with --to"));
+	if (!c.format)
+		return status_exit(report_error(
+		        &i->report, ST_PARAMETER,
+		        "'%s': the extension says no format that can be written; there are .base .csv "
+		        ".g2 .iges .igs .obj .ply .stl",
+		        to));
+	model_init(&c.all);
+	enum status st = export_all(i, &c, to, &figures);
+	int rc = status_exit(st);
+	if (st == ST_OK && i->json)
+		rc = print_json(result_json(&c, to, &figures));
+	else if (st == ST_OK)
+		tell(&c, to, &figures);
+	model_finish(&c.all);
+	return rc;
+}
+
+const struct command command_export = {
+	.name = "export",
+	.usage = "FILE[#ENTITY]... --to FILE [--tolerance T] [--angle DEG]",
+	.text = "write geometry for other programs",
+	.help = "The extension of --to says how: .base, .igs or .iges, .g2 (SINTEF GoTools) hold curves and\n"
+	        "surfaces, .csv points, .obj, .ply and .stl triangles of the surfaces. Triangles keep to the\n"
+	        "tolerance and the angle, leave no gaps where borders meet, and know trims.",
+	.options = export_options,
+	.first_word = WORD_FILE,
+	.words = WORD_FILE,
+	.run = export_run,
+};

@@ -1,0 +1,194 @@
+"""`batten export`: what is written is read again the same; meshes are closed."""
+import collections
+import math
+import os
+import struct
+
+import end
+
+SHAPES = "sphere torus wigley hull naca propeller teapot".split()
+
+
+def example(name, extension=".base"):
+    return os.path.join(end.EXAMPLES, name + extension)
+
+
+def near(a, b, scale, tolerance, what):
+    for x, y in zip(a, b):
+        assert abs(x - y) <= tolerance * scale, f"{what}: {a} {b}"
+
+
+def samples(entity):
+    (u0, u1), (v0, v1) = entity["domain"]
+    steps = (0, 0.13, 0.5, 0.77, 1)
+    return "\n".join(f"{u0 + (u1 - u0) * i!r} {v0 + (v1 - v0) * j!r}" for i in steps for j in steps)
+
+
+def test_base_comes_back_to_the_bit(project):
+    for name in SHAPES:
+        project.run("batten", "export", example(name), "--to", "out.base")
+        with open(example(name), "rb") as a, open(project.path("out.base"), "rb") as b:
+            assert a.read() == b.read(), name
+
+
+def test_iges_and_g2_hold_the_same_shape(project):
+    for name in SHAPES:
+        before = project.json("batten", "info", example(name))["entities"]
+        size = max(math.dist(*e["box"]) for e in before)
+        for file in ("out.igs", "out.g2"):
+            told = project.json("batten", "export", example(name), "--to", file)
+            assert told["entities"] == len(before) and told["triangles"] is None, told
+            after = project.json("batten", "info", file)["entities"]
+            assert [e["kind"] for e in after] == [e["kind"] for e in before]
+            for a, b in zip(before, after):
+                what = f"{name} {a['number']} {file}"
+                assert a["order"] == b["order"] and a["points"] == b["points"], what
+                assert a["domain"] == b["domain"], what
+                if a["kind"] != "surface":
+                    continue
+                points = [project.json("batten", "eval", f"{path}#{a['number']}", "-", stdin=samples(a))["points"]
+                          for path in (example(name), file)]
+                for p, q in zip(*points):
+                    near(p["point"], q["point"], size, 1e-15, what)
+
+
+def read_obj(path):
+    points, triangles, names = [], [], 0
+    with open(path) as f:
+        for line in f:
+            word, *rest = line.split() or ["#"]
+            if word == "v":
+                points.append(tuple(map(float, rest)))
+            elif word == "f":
+                triangles.append([points[int(corner.split("//")[0]) - 1] for corner in rest])
+            names += word == "o"
+    return triangles, names
+
+
+def read_stl(path):
+    with open(path, "rb") as f:
+        data = f.read()
+    assert data[:5] != b"solid"
+    n, = struct.unpack_from("<I", data, 80)
+    assert len(data) == 84 + 50 * n
+    values = (struct.unpack_from("<12fH", data, 84 + 50 * k) for k in range(n))
+    return [[v[3:6], v[6:9], v[9:12]] for v in values]
+
+
+def read_ply(path):
+    with open(path, "rb") as f:
+        head, data = f.read().split(b"end_header\n", 1)
+    lines = head.decode().split("\n")
+    assert lines[:2] == ["ply", "format binary_little_endian 1.0"]
+    counts = {line.split()[1]: int(line.split()[2]) for line in lines if line.startswith("element")}
+    points = [struct.unpack_from("<3d3f", data, 36 * k) for k in range(counts["vertex"])]
+    for p in points:
+        assert abs(math.hypot(*p[3:]) - 1) < 1e-6
+    faces = [struct.unpack_from("<B3I", data, 36 * len(points) + 13 * k) for k in range(counts["face"])]
+    assert len(data) == 36 * len(points) + 13 * len(faces)
+    assert all(f[0] == 3 for f in faces)
+    return [[points[i][:3] for i in f[1:]] for f in faces]
+
+
+def open_edges(triangles):
+    uses = collections.Counter()
+    for t in triangles:
+        for a, b in zip(t, t[1:] + t[:1]):
+            assert a != b
+            uses[(a, b)] += 1
+    return sum(count != 1 or uses[(b, a)] != 1 for (a, b), count in uses.items())
+
+
+def volume(triangles):
+    total = 0
+    for a, b, c in triangles:
+        total += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+                  + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
+    return total
+
+
+def test_meshes_are_closed_in_every_format(project):
+    for name in ("sphere", "torus"):
+        meshes = []
+        for extension, read in ((".obj", lambda p: read_obj(p)[0]), (".stl", read_stl), (".ply", read_ply)):
+            file = project.path(name + extension)
+            told = project.json("batten", "export", example(name), "--to", file, "--angle", "20")
+            triangles = read(file)
+            assert told["triangles"] == len(triangles) and told["open_edges"] == 0, told
+            assert open_edges(triangles) == 0, (name, extension)
+            meshes.append(triangles)
+        for a, b in zip(meshes[0], meshes[2]):
+            assert a == b  # OBJ and PLY hold the points to the bit
+        # every edge is used once each way; the volume is that of the sphere (or torus) within the tolerance
+        box = project.json("batten", "info", example(name))["entities"][0]["box"]
+        dx, _, dz = (hi - lo for lo, hi in zip(*box))
+        exact = math.pi / 6 * dx ** 3 if name == "sphere" else 2 * math.pi ** 2 * (dx - dz) / 2 * (dz / 2) ** 2
+        assert 0.97 * exact < abs(volume(meshes[0])) < exact
+
+
+def test_faces_that_join_make_one_closed_mesh(project):
+    told = project.json("batten", "export", example("hull"), "--to", "hull.obj")
+    triangles, names = read_obj(project.path("hull.obj"))
+    assert told["open_edges"] == 0 and open_edges(triangles) == 0
+    assert names == told["entities"] > 1
+
+
+def test_the_tolerance_and_the_angle_are_obeyed(project):
+    counts = [project.json("batten", "export", example("torus"), "--to", "t.stl", "--angle", "180", "--tolerance",
+                           t)["triangles"] for t in ("0.1", "0.01", "0.001")]
+    assert counts[0] * 4 < counts[1] * 2 < counts[2], counts
+    counts = [project.json("batten", "export", example("torus"), "--to", "t.stl", "--tolerance", "1", "--angle",
+                           a)["triangles"] for a in ("40", "10")]
+    assert counts[0] * 4 < counts[1], counts
+
+
+def test_same_input_same_bytes(project):
+    for file in ("a.obj", "a.ply", "a.stl", "a.g2", "a.igs", "a.base"):
+        bytes_of = []
+        for _ in range(2):
+            project.run("batten", "export", example("propeller"), "--to", file)
+            with open(project.path(file), "rb") as f:
+                bytes_of.append(f.read())
+        assert bytes_of[0] == bytes_of[1], file
+
+
+def test_points_in_columns(project):
+    with open(project.path("in.csv"), "w") as f:
+        f.write("# measured\r\nx;y;z\r\n1.5;-2D0;0.1\r\n4;5;6\r\n")
+    info = project.json("batten", "info", "in.csv")["entities"]
+    assert [(e["kind"], e["points"], e["box"]) for e in info] == [("points", [2], [[1.5, -2, 0.1], [4, 5, 6]])]
+    project.run("batten", "export", "in.csv", "--to", "out.csv")
+    with open(project.path("out.csv")) as f:
+        assert f.read() == "x,y,z\n1.5,-2,0.1\n4,5,6\n"
+    project.run("batten", "import", "in.csv")
+    project.run("batten", "export", "in.base", "in.csv", "--to", "both.g2")
+    assert [e["kind"] for e in project.json("batten", "info", "both.g2")["entities"]] == ["points", "points"]
+
+
+def test_parts_and_several_files(project):
+    told = project.json("batten", "export", example("hull") + "#2", example("hull") + "#1", "--to", "two.base")
+    assert told["entities"] == 2
+    whole = project.json("batten", "info", example("hull"))["entities"]
+    two = project.json("batten", "info", "two.base")["entities"]
+    assert [e["box"] for e in two] == [whole[1]["box"], whole[0]["box"]]
+
+
+def test_what_is_wrong_is_said(project):
+    for arguments in ([], [example("torus")], ["--to", "a.stl"], [example("torus"), "--to", "a.step"],
+                      [example("torus"), "--to", "noextension"], [example("torus"), "--to", "a.stl", "--angle", "0"],
+                      [example("torus"), "--to", "a.stl", "--angle", "181"],
+                      [example("torus"), "--to", "a.stl", "--tolerance", "-1"],
+                      [example("torus"), "--to", "a.stl", "--tolerance", "small"]):
+        done = project.run("batten", "export", *arguments, status=2)
+        assert done.stderr.strip() and not done.stdout, arguments
+    for arguments in (["missing.igs", "--to", "a.stl"], [example("torus") + "#7", "--to", "a.stl"],
+                      [example("torus"), "--to", "a.csv"], [example("torus"), "--to", "no/such/folder/a.stl"]):
+        done = project.run("batten", "export", *arguments, status=1)
+        assert done.stderr.startswith("batten "), (arguments, done.stderr)
+    assert not [f for f in os.listdir(project.folder) if f.startswith("a.")]
+    with open(project.path("bad.csv"), "w") as f:
+        f.write("1,2,3\n4,five,6\n")
+    assert "bad.csv:2:3: found 'five'" in project.run("batten", "info", "bad.csv", status=1).stderr
+
+
+end.main()
