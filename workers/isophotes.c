@@ -1,15 +1,11 @@
 /* isophotes.c - curves on a surface along which the normal keeps its angle to the light. */
 #include <stdlib.h>
 
-#include "level.h"
 #include "level_curves.h"
+#include "level_work.h"
 #include "worker.h"
 
-/* A unit is a group of patches at one angle: enough of them that progress moves. */
-enum { UNITS_WANTED = 400, ANGLES_MAX = 1000 };
-
-/* Where no tolerance is given: this part of the surface's size. */
-static const double tolerance_share = 1e-5;
+enum { ANGLES_MAX = 1000 };
 
 static const struct param isophotes_params[] = {
 	{ .name = "angle",
@@ -36,13 +32,7 @@ static const struct param isophotes_params[] = {
 	  .max = ANGLES_MAX,
 	  .help = "how many angles (17 where not given: every 10 degrees)" },
 	PARAM_ROWS_LIGHT("0", "0"),
-	{ .name = "tolerance",
-	  .type = PARAM_REAL,
-	  .min = 0,
-	  .max = INFINITY,
-	  .unit = "file",
-	  .help = "largest distance from the exact curve (1e-5 of the surface's size where not "
-	          "given)" },
+	PARAM_ROW_LEVEL_TOLERANCE,
 	PARAM_ROW_SVG,
 	PARAM_ROW_VIEW("three-quarter"),
 	{ .name = NULL },
@@ -50,11 +40,9 @@ static const struct param isophotes_params[] = {
 
 struct isophotes {
 	int n_angles;
-	double *angles;        /* owned, degrees */
-	struct level **levels; /* owned, one an angle; the others borrow from the first */
-	size_t groups;         /* of patches */
+	double *angles; /* owned, degrees */
 	double tolerance;
-	struct level_result *results; /* owned, one an angle; filled by finish */
+	struct level_work level;
 };
 
 static void isophotes_end(struct work *w)
@@ -62,14 +50,7 @@ static void isophotes_end(struct work *w)
 	struct isophotes *s = w->state;
 	if (!s)
 		return;
-	for (int i = s->n_angles; i-- > 0;) {
-		if (s->results)
-			level_result_finish(&s->results[i]);
-		if (s->levels)
-			level_destroy(s->levels[i]);
-	}
-	free(s->results);
-	free(s->levels);
+	level_work_finish(&s->level);
 	free(s->angles);
 	free(s);
 	w->state = NULL;
@@ -89,9 +70,7 @@ static enum status angles_read(const struct work *w, struct isophotes *s)
 		return report_error(&w->report, ST_PARAMETER,
 		                    "--from %g is above --to %g; exchange them", from, to);
 	s->angles = malloc(sizeof *s->angles * s->n_angles);
-	s->levels = calloc(s->n_angles, sizeof *s->levels);
-	s->results = calloc(s->n_angles, sizeof *s->results);
-	if (!s->angles || !s->levels || !s->results)
+	if (!s->angles)
 		return report_error(&w->report, ST_RESOURCE, "no memory for %d angles",
 		                    s->n_angles);
 	for (int i = 0; i < s->n_angles; i++)
@@ -103,84 +82,46 @@ static enum status isophotes_begin(struct work *w)
 {
 	struct isophotes *s = calloc(1, sizeof *s);
 	struct vec3 light;
-	double size = surface_size(w->surfaces[0]);
 	w->state = s;
 	if (!s)
 		return report_error(&w->report, ST_RESOURCE, "no memory for isophotes");
-	if (!(size > 0))
+	if (!(surface_size(w->surfaces[0]) > 0))
 		return report_error(&w->report, ST_INPUT,
 		                    "the surface is a single point and has no isophotes; choose "
 		                    "another entity");
+	s->tolerance = level_work_tolerance(w);
 	enum status st = angles_read(w, s);
 	if (st == ST_OK)
 		st = work_light(w, &light);
-	s->tolerance =
-	        work_has(w, "tolerance") ? work_real(w, "tolerance") : tolerance_share * size;
-	for (int i = 0; st == ST_OK && i < s->n_angles; i++) {
-		struct level_field f = { .kind = LEVEL_ISOPHOTE,
-			                 .direction = light,
-			                 .value = cos(s->angles[i] * M_PI / 180) };
-		st = i == 0 ? level_create(&s->levels[0], w->surfaces[0], &f, s->tolerance,
-		                           &w->report)
-		            : level_create_like(&s->levels[i], s->levels[0], f.value, &w->report);
-	}
-	if (st != ST_OK)
-		return st;
-	size_t patches = level_patches(s->levels[0]);
-	size_t wanted = (UNITS_WANTED + (size_t)s->n_angles - 1) / (size_t)s->n_angles;
-	s->groups = patches < wanted ? patches : wanted;
-	return ST_OK;
+	struct level_field *fields = calloc(ANGLES_MAX, sizeof *fields);
+	if (st == ST_OK && !fields)
+		st = report_error(&w->report, ST_RESOURCE, "no memory for isophotes");
+	for (int i = 0; st == ST_OK && i < s->n_angles; i++)
+		fields[i] = (struct level_field){ .kind = LEVEL_ISOPHOTE,
+			                          .direction = light,
+			                          .value = cos(s->angles[i] * M_PI / 180) };
+	if (st == ST_OK)
+		st = level_work_init(&s->level, w, fields, s->n_angles, s->tolerance);
+	free(fields);
+	return st;
 }
 
 static size_t isophotes_units(const struct work *w)
 {
 	const struct isophotes *s = w->state;
-	return s->groups * (size_t)s->n_angles;
+	return level_work_units(&s->level);
 }
 
 static enum status isophotes_unit(struct work *w, size_t unit)
 {
 	const struct isophotes *s = w->state;
-	const struct level *l = s->levels[unit / s->groups];
-	size_t group = unit % s->groups, patches = level_patches(l);
-	size_t end = (group + 1) * patches / s->groups;
-	struct text bytes = { 0 };
-	enum status st = ST_OK;
-	for (size_t p = group * patches / s->groups; st == ST_OK && p < end; p++)
-		st = work_cancelled(w) ? ST_CANCELLED : level_patch(l, p, &bytes);
-	if (st == ST_OK)
-		st = work_put(w, unit, bytes.s ? bytes.s : "", bytes.n);
-	else if (st == ST_RESOURCE)
-		st = report_error(&w->report, st, "no memory to trace isophotes");
-	text_finish(&bytes);
-	return st;
-}
-
-static enum status angle_join(struct work *w, int i)
-{
-	struct isophotes *s = w->state;
-	const char **blocks = calloc(s->groups, sizeof *blocks);
-	size_t *sizes = calloc(s->groups, sizeof *sizes);
-	enum status st = blocks && sizes
-	                         ? ST_OK
-	                         : report_error(&w->report, ST_RESOURCE, "no memory for isophotes");
-	for (size_t g = 0; st == ST_OK && g < s->groups; g++)
-		st = work_get(w, (size_t)i * s->groups + g, &blocks[g], &sizes[g]);
-	if (st == ST_OK)
-		st = level_join(s->levels[i], blocks, sizes, s->groups, &s->results[i], &w->report);
-	free(blocks);
-	free(sizes);
-	return st;
+	return level_work_unit(&s->level, w, unit);
 }
 
 static enum status isophotes_finish(struct work *w)
 {
-	const struct isophotes *s = w->state;
-	enum status st = ST_OK;
-	for (int i = 0; st == ST_OK && i < s->n_angles; i++) {
-		work_phase(w, "join", (size_t)i, (size_t)s->n_angles);
-		st = work_cancelled(w) ? ST_CANCELLED : angle_join(w, i);
-	}
+	struct isophotes *s = w->state;
+	enum status st = level_work_join(&s->level, w);
 	struct level_curves c = { .work = w,
 		                  .value_name = "angle",
 		                  .title = "Isophotes",
@@ -188,7 +129,7 @@ static enum status isophotes_finish(struct work *w)
 		                  .map = { .lo = 0, .hi = 180 },
 		                  .tolerance = s->tolerance,
 		                  .values = s->angles,
-		                  .results = s->results,
+		                  .results = s->level.results,
 		                  .n = s->n_angles };
 	if (st == ST_OK)
 		st = work_figures(w, level_curves_figures(&c));

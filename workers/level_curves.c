@@ -20,22 +20,35 @@ static void figures_set(json_t *o, size_t branches, size_t closed, double length
 	json_set_int(o, "undecided", (int64_t)undecided);
 }
 
+static const struct level_result *result_of(const struct level_curves *c, int i, int surface)
+{
+	return &c->results[(size_t)i * c->work->n_surfaces + surface];
+}
+
+static void result_add(struct level_result *to, const struct level_result *x)
+{
+	to->n_branches += x->n_branches;
+	to->n_closed += x->n_closed;
+	to->length += x->length;
+	to->max_error = fmax(to->max_error, x->max_error);
+	to->n_undecided += x->n_undecided;
+}
+
 json_t *level_curves_figures(const struct level_curves *c)
 {
 	struct level_result sum = { 0 };
 	json_t *o = json_object(), *levels = json_array();
 	for (int i = 0; i < c->n; i++) {
-		const struct level_result *x = &c->results[i];
+		struct level_result one = { 0 };
 		json_t *row = json_object();
-		json_set_number(row, c->value_name, c->values[i]);
-		figures_set(row, x->n_branches, x->n_closed, x->length, x->max_error,
-		            x->n_undecided);
+		for (int s = 0; s < c->work->n_surfaces; s++)
+			result_add(&one, result_of(c, i, s));
+		if (c->value_name)
+			json_set_number(row, c->value_name, c->values[i]);
+		figures_set(row, one.n_branches, one.n_closed, one.length, one.max_error,
+		            one.n_undecided);
 		json_array_append_new(levels, row);
-		sum.n_branches += x->n_branches;
-		sum.n_closed += x->n_closed;
-		sum.length += x->length;
-		sum.max_error = fmax(sum.max_error, x->max_error);
-		sum.n_undecided += x->n_undecided;
+		result_add(&sum, &one);
 	}
 	figures_set(o, sum.n_branches, sum.n_closed, sum.length, sum.max_error, sum.n_undecided);
 	if (c->n > 1)
@@ -54,17 +67,29 @@ static enum status attribute_number(struct entity *e, const char *name, double x
 	return st;
 }
 
-static enum status branch_add(const struct level_curves *c, int i, const struct level_branch *b,
-                              struct model *m)
+/* What value a piece belongs to. */
+static enum status value_set(const struct level_curves *c, int i, struct entity *e)
+{
+	enum status st = ST_OK;
+	if (c->kinds)
+		st = entity_set_attribute(e, "kind", c->kinds[i]);
+	return st == ST_OK && c->value_name ? attribute_number(e, c->value_name, c->values[i]) : st;
+}
+
+/* The `place`th branch of the file. */
+static enum status branch_add(const struct level_curves *c, int i, int surface,
+                              const struct level_branch *b, size_t place, struct model *m)
 {
 	struct entity e;
 	entity_init(&e, ENTITY_CURVE_ON_SURFACE);
-	e.surface = 0;
+	e.surface = surface;
 	enum status st = curve_copy(&e.curve, &b->uv);
 	if (st == ST_OK)
 		st = curve_copy(&e.space, &b->space);
 	if (st == ST_OK)
-		st = attribute_number(&e, c->value_name, c->values[i]);
+		st = value_set(c, i, &e);
+	if (st == ST_OK && c->curves)
+		st = attribute_number(&e, "curve", (double)c->curves[place]);
 	if (st == ST_OK)
 		st = entity_set_attribute(&e, "closed", b->closed ? "yes" : "no");
 	if (st == ST_OK)
@@ -78,9 +103,9 @@ static enum status branch_add(const struct level_curves *c, int i, const struct 
 }
 
 /* Undecided boxes as pairs of corners in u, v. */
-static enum status boxes_add(const struct level_curves *c, int i, struct model *m)
+static enum status boxes_add(const struct level_curves *c, int i, int surface, struct model *m)
 {
-	const struct level_result *x = &c->results[i];
+	const struct level_result *x = result_of(c, i, surface);
 	struct entity e;
 	if (x->n_undecided == 0)
 		return ST_OK;
@@ -95,35 +120,38 @@ static enum status boxes_add(const struct level_curves *c, int i, struct model *
 				e.points.values[4 * k + d] = x->undecided[k].lo[d];
 				e.points.values[4 * k + 2 + d] = x->undecided[k].hi[d];
 			}
-		st = attribute_number(&e, c->value_name, c->values[i]);
+		st = value_set(c, i, &e);
 	}
 	if (st == ST_OK)
 		st = entity_set_attribute(&e, "undecided", "corners of boxes");
+	if (st == ST_OK && c->work->n_surfaces > 1)
+		st = attribute_number(&e, "surface", surface + 1);
 	if (st == ST_OK)
 		st = model_add(m, &e);
 	entity_finish(&e);
 	return st;
 }
 
-static enum status surface_add(const struct work *w, struct model *m)
+static enum status surface_add(const struct work *w, int i, struct model *m)
 {
 	struct entity e;
 	entity_init(&e, ENTITY_SURFACE);
 	e.used = true;
-	enum status st = surface_copy(&e.geometry, w->surfaces[0]);
-	if (st == ST_OK && w->entities[0]->name)
-		st = model_set_text(&e.name, w->entities[0]->name);
+	enum status st = surface_copy(&e.geometry, w->surfaces[i]);
+	if (st == ST_OK && w->entities[i]->name)
+		st = model_set_text(&e.name, w->entities[i]->name);
 	if (st == ST_OK)
 		st = model_add(m, &e);
 	entity_finish(&e);
 	return st;
 }
 
-/* The surface first, then by rising value the curves on it and what stayed undecided. */
+/* The surfaces first, then value by value the curves on each and what stayed undecided. */
 static enum status curves_fill(const struct level_curves *c, struct model *m)
 {
 	const struct work *w = c->work;
 	struct text t = { 0 };
+	size_t place = 0;
 	int n;
 	const struct work_attribute *a = work_attributes(w, &n);
 	enum status st = w->file_unit ? model_set_text(&m->unit, w->file_unit) : ST_OK;
@@ -133,14 +161,16 @@ static enum status curves_fill(const struct level_curves *c, struct model *m)
 	if (st == ST_OK)
 		st = t.failed ? ST_RESOURCE : model_set_attribute(m, "tolerance", t.s);
 	text_finish(&t);
-	if (st == ST_OK)
-		st = surface_add(w, m);
-	for (int i = 0; st == ST_OK && i < c->n; i++) {
-		for (size_t b = 0; st == ST_OK && b < c->results[i].n_branches; b++)
-			st = branch_add(c, i, &c->results[i].branches[b], m);
-		if (st == ST_OK)
-			st = boxes_add(c, i, m);
-	}
+	for (int s = 0; st == ST_OK && s < w->n_surfaces; s++)
+		st = surface_add(w, s, m);
+	for (int i = 0; i < c->n; i++)
+		for (int s = 0; st == ST_OK && s < w->n_surfaces; s++) {
+			const struct level_result *x = result_of(c, i, s);
+			for (size_t b = 0; st == ST_OK && b < x->n_branches; b++)
+				st = branch_add(c, i, s, &x->branches[b], place++, m);
+			if (st == ST_OK)
+				st = boxes_add(c, i, s, m);
+		}
 	return st;
 }
 
@@ -162,19 +192,24 @@ enum status level_curves_write(void *data, const char *path, const struct report
 static size_t curves_draw(const struct level_curves *c, int i, char *label,
                           struct picture_curve *out)
 {
-	const struct level_result *x = &c->results[i];
-	size_t longest = 0;
-	for (size_t b = 0; b < x->n_branches; b++) {
-		out[b].curve = &x->branches[b].space;
-		out[b].color = colormap_color(&c->map, c->values[i]);
-		out[b].width = 1.5;
-		if (x->branches[b].length > x->branches[longest].length)
-			longest = b;
+	double longest = 0;
+	size_t n = 0, labelled = 0;
+	for (int s = 0; s < c->work->n_surfaces; s++) {
+		const struct level_result *x = result_of(c, i, s);
+		for (size_t b = 0; b < x->n_branches; b++, n++) {
+			out[n].curve = &x->branches[b].space;
+			out[n].color = colormap_color(&c->map, c->values[i]);
+			out[n].width = 1.5;
+			if (x->branches[b].length > longest) {
+				longest = x->branches[b].length;
+				labelled = n;
+			}
+		}
 	}
 	snprintf(label, LABEL_SIZE, "%.4g%s", c->values[i], c->unit);
-	if (x->n_branches > 0)
-		out[longest].label = label;
-	return x->n_branches;
+	if (longest > 0 && c->value_name)
+		out[labelled].label = label;
+	return n;
 }
 
 enum status level_curves_draw(void *data, const char *path, const struct report *r)
@@ -183,7 +218,7 @@ enum status level_curves_draw(void *data, const char *path, const struct report 
 	const struct work *w = c->work;
 	struct camera camera;
 	size_t n = 0, at = 0;
-	for (int i = 0; i < c->n; i++)
+	for (int i = 0; i < c->n * w->n_surfaces; i++)
 		n += c->results[i].n_branches;
 	struct picture_curve *curves = calloc(n + 1, sizeof *curves);
 	char *labels = calloc((size_t)c->n, LABEL_SIZE);

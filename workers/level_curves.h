@@ -8,17 +8,21 @@
 #include "level.h"
 #include "worker.h"
 
-/* The results for n values on a worker's one surface. All borrowed. */
+/* The results for n values on a worker's surfaces. All borrowed. */
 struct level_curves {
 	const struct work *work;
-	const char *value_name; /* attribute and figure: "angle" */
-	const char *title;      /* of the drawing */
-	const char *unit;       /* behind a value in the drawing, UTF-8 */
-	struct colormap map;    /* colors of the values */
+	const char
+	        *value_name; /* attribute and figure: "angle"; NULL: the one value says nothing */
+	const char *title;   /* of the drawing */
+	const char *unit;    /* behind a value in the drawing, UTF-8 */
+	struct colormap map; /* colors of the values */
 	double tolerance;
 	const double *values;
-	const struct level_result *results;
+	const struct level_result *results; /* n x n_surfaces, value by value */
 	int n;
+	const char *const *kinds; /* attribute `kind` for each value; NULL: none */
+	const size_t *curves;     /* attribute `curve` for each branch, in the order of the file:
+	                             what is joined over surfaces has one number; NULL: none */
 };
 
 /* branches, closed, length, max_error, undecided over all values, and `levels` with the same for
@@ -26,7 +30,7 @@ struct level_curves {
 json_t *level_curves_figures(const struct level_curves *c);
 
 /*
- * For work_output, data a struct level_curves: the surface and the curves on it in the .base
+ * For work_output, data a struct level_curves: the surfaces and the curves on them in the .base
  * format, undecided boxes as pairs of corners in u, v.
  */
 work_writer level_curves_write;

@@ -7,7 +7,7 @@
 #include "bezier.h"
 #include "gauss.h"
 
-enum { HALVINGS = 20, WINDING_DEPTH = 60 };
+enum { HALVINGS = 12, WINDING_DEPTH = 60 };
 
 /* What is added up along the border. */
 struct sums {
@@ -153,12 +153,17 @@ static struct vec3 side_end(const struct section_side *s, bool last)
 	return curve_point(s->curve, s->curve->domain[s->reversed != last]);
 }
 
-static void scale_find(struct walk *w, const struct section_side *sides, int n)
+/* Length of all sides, roughly, the part above the lid too. */
+static double size_find(const struct walk *w, const struct section_side *sides, int n)
 {
-	for (int i = 0; i < n; i++)
-		w->scale += quadrature(w, sides[i].curve, sides[i].curve->domain[0],
-		                       sides[i].curve->domain[1])
-		                    .girth;
+	struct walk whole = *w;
+	double sum = 0;
+	whole.lid = NULL;
+	for (int i = 0; i < n; i++) {
+		const struct curve *c = sides[i].curve;
+		sum += quadrature(&whole, c, c->domain[0], c->domain[1]).girth;
+	}
+	return sum;
 }
 
 enum status section_measure(const struct section_side *sides, int n, struct vec3 normal,
@@ -170,7 +175,7 @@ enum status section_measure(const struct section_side *sides, int n, struct vec3
 	if (n < 1)
 		return ST_OK;
 	w.origin = pressed(&w, side_end(&sides[0], false));
-	scale_find(&w, sides, n);
+	w.scale = size_find(&w, sides, n);
 	for (int i = 0; st == ST_OK && i < n; i++) {
 		st = side_walk(&w, &sides[i]);
 		line_walk(&w, side_end(&sides[i], true), side_end(&sides[(i + 1) % n], false));

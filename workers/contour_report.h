@@ -1,0 +1,27 @@
+/* contour_report.h - what the contours worker found, as figures, table and lines plan. */
+#ifndef BATTEN_CONTOUR_REPORT_H
+#define BATTEN_CONTOUR_REPORT_H
+
+#include "contour_measure.h"
+#include "contour_sets.h"
+#include "level_work.h"
+
+/* The state of the worker. */
+struct contour_state {
+	struct contour_sets sets;
+	struct level_work level;
+	double tolerance, gap;
+	double *values;                   /* owned, of all sets */
+	const char **kinds;               /* owned array */
+	struct contours *joined;          /* owned, one a value; filled by finish, like the rest */
+	struct contour_measure *measures; /* owned, one a value */
+	size_t *curves;                   /* owned: number of the joined curve, for each branch */
+};
+
+/* New reference, NULL for want of memory. */
+json_t *contour_figures(const struct contour_state *s);
+
+/* For work_output, data the struct work. */
+work_writer contour_table_write, contour_plan_write;
+
+#endif

@@ -1,0 +1,47 @@
+/* level_work.h - the units of workers that trace curves on surfaces: groups of patches at a value. */
+#ifndef BATTEN_LEVEL_WORK_H
+#define BATTEN_LEVEL_WORK_H
+
+#include "level.h"
+#include "worker.h"
+
+/* Every field on every surface of a worker. */
+struct level_work {
+	int n, n_surfaces;            /* fields */
+	struct level **levels;        /* owned, n x n_surfaces, field by field; some borrow from
+	                                 others before them */
+	size_t *first;                /* owned: first unit of each surface within a field's */
+	struct level_result *results; /* owned, n x n_surfaces; filled by level_work_join */
+};
+
+/* Errors: those of level_create. */
+enum status level_work_init(struct level_work *l, const struct work *w,
+                            const struct level_field *fields, int n, double tolerance);
+void level_work_finish(struct level_work *l); /* a zeroed one is fine */
+
+size_t level_work_units(const struct level_work *l);
+
+/* Thread: any. Errors: ST_CANCELLED, ST_RESOURCE. */
+enum status level_work_unit(const struct level_work *l, struct work *w, size_t unit);
+
+/* All units are there: fill the results. */
+enum status level_work_join(struct level_work *l, struct work *w);
+
+static inline const struct level_result *level_work_result(const struct level_work *l, int field,
+                                                           int surface)
+{
+	return &l->results[(size_t)field * l->n_surfaces + surface];
+}
+
+/* 1e-5 of the size of the largest surface, or what the parameter `tolerance` says. */
+double level_work_tolerance(const struct work *w);
+
+#define PARAM_ROW_LEVEL_TOLERANCE                                                                  \
+	{                                                                                          \
+		.name = "tolerance", .type = PARAM_REAL, .min = 0, .max = INFINITY,                \
+		.unit = "file",                                                                    \
+		.help = "largest distance from the exact curve (1e-5 of the surface's size where " \
+		        "not given)"                                                               \
+	}
+
+#endif
