@@ -26,7 +26,7 @@ enum message_way { FROM_WORKER = 1, TO_WORKER = 2, FROM_CLIENT = 4, FROM_SERVICE
 	X(HELLO, 1, FROM_WORKER | FROM_CLIENT | FROM_SERVICE,                                      \
 	  "protocol:i worker:s? worker_version:i? pid:i? host:s? program:s? version:s? "           \
 	  "slurm_job:i?")                                                                          \
-	X(PROGRESS, 2, FROM_WORKER, "done:i total:i phase:s?")                                     \
+	X(PROGRESS, 2, FROM_WORKER, "done:i total:i phase:s? host:s?")                             \
 	X(NOTE, 3, FROM_WORKER, "level:s text:s")                                                  \
 	X(UNIT, 4, FROM_WORKER, "unit:i")                                                          \
 	X(RESULT, 5, FROM_WORKER, "path:s kind:s figures:o? up_to_date:b?")                        \

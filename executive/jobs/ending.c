@@ -129,6 +129,11 @@ void job_gone(struct job *job)
 	enum job_cause cause = job->cause;
 
 	leave_process(job);
+	if (*job->exit.why && cause == CAUSE_NONE) {
+		free(job->fault);
+		job->fault = strdup(job->exit.why);
+		cancelled = false;
+	}
 	if (complete && cause != CAUSE_FAULT && !job->error) {
 		job_enter(job, JOB_DONE);
 		job_reason(job, NULL);
@@ -139,13 +144,13 @@ void job_gone(struct job *job)
 	} else if (cause == CAUSE_LEAVE && (!job->error || cancelled)) {
 		job->front = true;
 		job_enter(job, JOB_QUEUED);
+	} else if (job->exit.lost && cause == CAUSE_NONE) {
+		lose(job);
 	} else if (cancelled && cause == CAUSE_NONE) {
 		job_enter(job, JOB_KILLED);
 		job_reason(job,
 		           "stopped from outside; 'batten retry %lld' goes on from its part file",
 		           (long long)job->stats.id);
-	} else if (job->exit.lost && cause == CAUSE_NONE) {
-		lose(job);
 	} else {
 		explain(job);
 		job_enter(job, JOB_FAILED);

@@ -14,6 +14,7 @@ struct launcher_exit {
 	double cpu_s;     /* NaN: not known */
 	int64_t peak_kib; /* -1: not known */
 	bool lost;        /* not by its own doing: its node or its launcher went away */
+	char why[256];    /* what its launcher knows better than the worker; "": nothing */
 };
 
 /* Where a launcher tells what happens; loop thread, never from inside a call of the launcher. */

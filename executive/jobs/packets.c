@@ -56,11 +56,20 @@ void job_times(struct job *job)
 	                   : NAN;
 }
 
+static void take_host(struct job *job, const json_t *o)
+{
+	const char *host = json_text(o, "host", NULL);
+	char *copy = host ? strdup(host) : NULL;
+	if (!copy)
+		return;
+	free(job->stats.host);
+	job->stats.host = copy;
+}
+
 static void on_hello(struct job *job, const json_t *o)
 {
 	const struct launcher *l = job->q->ports.launcher;
 	int64_t protocol = json_int(o, "protocol", 0);
-	const char *host = json_text(o, "host", NULL);
 	if (job->greeted) {
 		job_fault(job, "worker %s said HELLO twice", job->stats.worker);
 		job_step(job, EV_BREAK, NULL);
@@ -75,10 +84,7 @@ static void on_hello(struct job *job, const json_t *o)
 		return;
 	}
 	job->greeted = true;
-	if (host) {
-		free(job->stats.host);
-		job->stats.host = strdup(host);
-	}
+	take_host(job, o);
 	if (job->stats.state == JOB_ENDING)
 		return;
 	json_t *start = json_object();
@@ -96,6 +102,7 @@ static void on_hello(struct job *job, const json_t *o)
 static void on_progress(struct job *job, const json_t *o)
 {
 	struct Stats *s = &job->stats;
+	take_host(job, o);
 	int64_t done = json_int(o, "done", 0), total = json_int(o, "total", 0);
 	const char *phase = json_text(o, "phase", NULL);
 	bool same = s->phase && phase ? !strcmp(s->phase, phase) : !s->phase && !phase;

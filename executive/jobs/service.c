@@ -253,6 +253,16 @@ static enum status server_open(struct server *s, const struct settings *settings
 	return st;
 }
 
+/* Workers by others may ask this program: they find it in BATTEN_PROGRAM. */
+static enum status program_tell(const struct report *r)
+{
+	char *folder = path_of_program(), *path = folder ? path_join(folder, "batten") : NULL;
+	bool told = path && !setenv("BATTEN_PROGRAM", path, 1);
+	free(folder);
+	free(path);
+	return told ? ST_OK : report_error(r, ST_RESOURCE, "cannot serve: out of memory");
+}
+
 static enum status launchers_create(struct server *s, const struct settings *settings,
                                     const struct report *r)
 {
@@ -273,6 +283,8 @@ static enum status server_run(struct server *s, const struct settings *settings,
                               const struct report *r)
 {
 	enum status st = crew_create(&s->crew);
+	if (st == ST_OK)
+		st = program_tell(r);
 	if (st == ST_OK)
 		st = launchers_create(s, settings, r);
 	if (st != ST_OK)

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -16,7 +17,7 @@
 #include "slurm_end.h"
 #include "slurm_job.h"
 
-enum { BURY_MS = 5000, WORDS_MAX = 16384, HASH_SHOWN = 12 };
+enum { BURY_MS = 5000, BURY_LOOKS = 20, BURY_LOOK_MS = 150, WORDS_MAX = 16384, HASH_SHOWN = 12 };
 
 struct slurm_job *slurm_job(const struct slurm *s, int64_t id)
 {
@@ -120,7 +121,8 @@ static enum status slurm_check(void *data, const struct Stats *stats, const stru
 	return s->below->check(s->below->data, stats, r);
 }
 
-/* The srun of a dead service is gone; what it asked for may still be in the queue or on a node. */
+/* The srun of a dead service is gone; what it asked for may still be in the queue or on a node, and
+ * two must not write one part file. */
 static void slurm_bury(void *data, const struct Stats *stats)
 {
 	const struct slurm *s = data;
@@ -131,10 +133,16 @@ static void slurm_bury(void *data, const struct Stats *stats)
 		text_addf(&names, "%s%s", names.n ? "," : "--name=", name ? name : "");
 		free(name);
 	}
-	char program[] = "scancel", quiet[] = "--quiet";
-	char *argv[] = { program, quiet, names.s, NULL };
-	if (s->srun && !names.failed)
-		order_wait(argv, BURY_MS);
+	char cancel[] = "scancel", quiet[] = "--quiet", queue[] = "squeue", bare[] = "--noheader",
+	     option[] = "-o", format[] = "%i";
+	char *cancels[] = { cancel, quiet, names.s, NULL };
+	char *looks[] = { queue, bare, option, format, names.s, NULL };
+	bool left = s->srun && !names.failed && order_wait(cancels, BURY_MS, NULL);
+	for (int i = 0; i < BURY_LOOKS && left; i++) {
+		if (i)
+			poll(NULL, 0, BURY_LOOK_MS);
+		left = order_wait(looks, BURY_MS, &left) && left;
+	}
 	text_finish(&names);
 }
 
@@ -271,36 +279,24 @@ static char *last_words(const struct slurm_job *j)
 	return text;
 }
 
-static void tell_why(struct slurm *s, int64_t id, char *why)
-{
-	struct message m = { .type = MESSAGE_ERROR, .body = json_object() };
-	json_set_text(m.body, "class", "resource");
-	json_set_text(m.body, "text", why);
-	s->sink.packet(s->sink.data, id, &m);
-	message_finish(&m);
-}
-
 static void on_exited(void *data, int64_t id, const struct launcher_exit *srun)
 {
 	struct slurm *s = data;
 	struct slurm_job *j = slurm_job(s, id);
 	struct launcher_exit e = *srun;
-	char *words = j ? last_words(j) : NULL;
-	char *why = NULL;
 	bool good = j && j->finished && !e.status && !e.signal;
-	if (j && !good && j->want != WANT_END && !j->killed)
-		why = slurm_end(&e, words ? words : "");
-	else
-		free(slurm_end(&e, ""));
-	if (good || (j && (j->killed || j->want == WANT_END)))
-		e.lost = false;
-	if (why)
-		tell_why(s, id, why);
-	if (e.lost)
-		slurm_sweep(s, j); /* what is left of it must not write beside the next */
-	free(why);
+	bool ours = j && (j->killed || j->want == WANT_END);
+	char *words = j && !good && !ours ? last_words(j) : NULL;
+	slurm_end(&e, words ? words : "");
 	free(words);
-	s->sink.exited(s->sink.data, id, &e);
+	if (good || ours) {
+		e.lost = false;
+		e.why[0] = '\0';
+	}
+	if (e.lost && j)
+		slurm_sweep(s, j, &e);
+	else
+		s->sink.exited(s->sink.data, id, &e);
 }
 
 /* srun itself was stopped or goes on: the worker was not. */
@@ -376,7 +372,8 @@ enum status slurm_create(struct slurm **out, uv_loop_t *loop, const struct proje
 		.forget = slurm_forget,
 	};
 	uv_timer_init(loop, &s->look);
-	s->look.data = s;
+	uv_timer_init(loop, &s->sweep);
+	s->look.data = s->sweep.data = s;
 	*out = s;
 	return ST_OK;
 }
@@ -394,10 +391,12 @@ void slurm_connect(struct slurm *s, struct launcher_sink sink)
 void slurm_close(struct slurm *s)
 {
 	while (s->jobs) {
-		slurm_sweep(s, s->jobs); /* an srun killed while it waits leaves a ghost in Slurm */
+		slurm_cancel(s,
+		             s->jobs); /* an srun killed while it waits leaves a ghost in Slurm */
 		slurm_forget(s, s->jobs->id);
 	}
 	uv_close((uv_handle_t *)&s->look, NULL);
+	uv_close((uv_handle_t *)&s->sweep, NULL);
 	orders_close(s->orders);
 	local_close(s->local);
 }

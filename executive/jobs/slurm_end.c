@@ -2,10 +2,8 @@
 #include "slurm_end.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
-
-#include "text.h"
 
 /* What srun and slurmstepd say (Slurm 22.05); the first that is found counts. */
 static const struct {
@@ -24,23 +22,20 @@ static const struct {
 	{ "CANCELLED AT ", false, "it was cancelled in Slurm from outside" },
 	{ "error: Unable to allocate resources: ", false, NULL },
 	{ "srun: fatal: ", false, NULL },
+	{ "srun: error: Invalid ", false, NULL },
 	{ "srun: unrecognized option ", false, "srun does not know an option; see slurm-options" },
 	{ "error: Unable to create step", false, NULL },
 	{ "error: Unable to contact slurm controller", false, NULL },
 };
 
-static char *line_rest(const char *at)
-{
-	return text_print("Slurm refuses it: %.*s", (int)strcspn(at, "\n"), at);
-}
-
-char *slurm_end(struct launcher_exit *e, const char *words)
+void slurm_end(struct launcher_exit *e, const char *words)
 {
 	e->cpu_s = NAN; /* srun's own */
 	e->peak_kib = -1;
 	if (e->signal) {
 		e->lost = true;
-		return strdup("its srun was killed from outside");
+		snprintf(e->why, sizeof e->why, "its srun was killed from outside");
+		return;
 	}
 	for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
 		const char *at = strstr(words, endings[i].says);
@@ -49,14 +44,18 @@ char *slurm_end(struct launcher_exit *e, const char *words)
 		e->lost = endings[i].lost;
 		if (!e->status)
 			e->status = 1;
-		return endings[i].means ? strdup(endings[i].means)
-		                        : line_rest(at + strlen(endings[i].says));
+		at += strlen(endings[i].says);
+		if (endings[i].means)
+			snprintf(e->why, sizeof e->why, "%s", endings[i].means);
+		else
+			snprintf(e->why, sizeof e->why, "Slurm refuses it: %.*s",
+			         (int)strcspn(at, "\n"), at);
+		return;
 	}
 	if (e->status > 128 && e->status < 128 + 65) {
 		e->signal = e->status - 128;
 		e->status = 0;
 	}
-	return NULL;
 }
 
 const char *slurm_reason(const char *reason)

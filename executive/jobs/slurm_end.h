@@ -5,10 +5,10 @@
 #include "launcher.h"
 
 /*
- * e is srun's own exit; it becomes the worker's. words: what srun and the worker wrote to the log.
- * Returns why it ended in a sentence where Slurm knows that; else NULL. Caller frees.
+ * e is srun's own exit; it becomes the worker's, with why where Slurm knows that. words: what srun
+ * and the worker wrote to the log.
  */
-char *slurm_end(struct launcher_exit *e, const char *words);
+void slurm_end(struct launcher_exit *e, const char *words);
 
 /* What squeue gives as a reason for waiting, in words; borrowed. */
 const char *slurm_reason(const char *reason);

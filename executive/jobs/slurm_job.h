@@ -24,6 +24,9 @@ struct slurm_job {
 	bool busy;       /* a program of Slurm is at work on it */
 	bool held;       /* stopped while it waited: Slurm does not start it */
 	enum slurm_want want, is;
+	bool sweeping; /* srun is gone, what it started is being ended */
+	int sweeps;    /* looks so far whether that is gone */
+	struct launcher_exit exit;
 };
 
 struct slurm {
@@ -37,7 +40,7 @@ struct slurm {
 	struct slurm_job *jobs;
 	char *srun;   /* owned; NULL: not installed */
 	char *prefix; /* owned; of the names of this project's jobs */
-	uv_timer_t look;
+	uv_timer_t look, sweep;
 	uint64_t look_ms;
 	bool looking;
 };
@@ -49,7 +52,9 @@ struct slurm_job *slurm_job(const struct slurm *s, int64_t id);
 void slurm_look_soon(struct slurm *s);
 /* Stop it, let it go on, end it: by a program of Slurm, one at a time for each job. */
 void slurm_want(struct slurm *s, struct slurm_job *j, enum slurm_want want);
-/* Cancel whatever Slurm has under its name, and hear nothing of it. */
-void slurm_sweep(struct slurm *s, const struct slurm_job *j);
+/* Cancel whatever Slurm has under its name. */
+void slurm_cancel(struct slurm *s, const struct slurm_job *j);
+/* Likewise, then tell its exit when nothing is left of it: the next must not find its part file held. */
+void slurm_sweep(struct slurm *s, struct slurm_job *j, const struct launcher_exit *e);
 
 #endif

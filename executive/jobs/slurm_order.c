@@ -95,8 +95,7 @@ static void on_read(uv_stream_t *s, ssize_t n, const uv_buf_t *b)
 		handle_close((uv_handle_t *)s);
 }
 
-bool order_run(struct orders *c, char *const argv[], order_done *done, void *data,
-                 int64_t tag)
+bool order_run(struct orders *c, char *const argv[], order_done *done, void *data, int64_t tag)
 {
 	struct order *k = calloc(1, sizeof *k);
 	if (!k)
@@ -148,22 +147,31 @@ void orders_destroy(struct orders *c)
 	free(c);
 }
 
-bool order_wait(char *const argv[], int ms)
+bool order_wait(char *const argv[], int ms, bool *said)
 {
 	posix_spawn_file_actions_t actions;
 	pid_t pid;
-	int status = -1;
+	int status = -1, out[2];
+	char byte;
+	if (pipe2(out, O_CLOEXEC))
+		return false;
 	posix_spawn_file_actions_init(&actions);
-	for (int fd = 0; fd < 3; fd++)
-		posix_spawn_file_actions_addopen(&actions, fd, "/dev/null", O_RDWR, 0);
+	posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDWR, 0);
+	posix_spawn_file_actions_adddup2(&actions, out[1], 1);
+	posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_RDWR, 0);
 	int error = posix_spawnp(&pid, argv[0], &actions, NULL, argv, environ);
 	posix_spawn_file_actions_destroy(&actions);
-	if (error)
-		return false;
-	struct pollfd p = { .fd = pidfd_open(pid, 0), .events = POLLIN };
-	if (p.fd < 0 || poll(&p, 1, ms) < 1)
-		kill(pid, SIGKILL);
+	close(out[1]);
+	struct pollfd p = { .fd = error ? -1 : pidfd_open(pid, 0), .events = POLLIN };
+	if (!error) {
+		if (p.fd < 0 || poll(&p, 1, ms) < 1)
+			kill(pid, SIGKILL);
+		waitpid(pid, &status, 0);
+	}
 	if (p.fd >= 0)
 		close(p.fd);
-	return waitpid(pid, &status, 0) == pid && WIFEXITED(status) && !WEXITSTATUS(status);
+	if (said)
+		*said = read(out[0], &byte, 1) == 1;
+	close(out[0]);
+	return !error && WIFEXITED(status) && !WEXITSTATUS(status);
 }

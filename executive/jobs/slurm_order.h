@@ -20,14 +20,13 @@ enum { ORDER_OUTPUT_MAX = 16 << 20 };
 /* loop is borrowed. Errors: ST_RESOURCE. */
 enum status orders_create(struct orders **out, uv_loop_t *loop);
 /* argv[0] is looked for in PATH. A false return: it could not be started, nothing is called. */
-bool order_run(struct orders *c, char *const argv[], order_done *done, void *data,
-                 int64_t tag);
+bool order_run(struct orders *c, char *const argv[], order_done *done, void *data, int64_t tag);
 /* Hear no more of them: what was asked of Slurm is still done; free with orders_destroy after the loop has run out. */
 void orders_close(struct orders *c);
 void orders_destroy(struct orders *c); /* NULL is fine */
 
 /* Run one and wait, at most `ms`. For the service's start, while no loop runs. False: it could not be
- * run, failed, or was ended for its time. */
-bool order_wait(char *const argv[], int ms);
+ * run, failed, or was ended for its time. said: it wrote something; may be NULL. */
+bool order_wait(char *const argv[], int ms, bool *said);
 
 #endif

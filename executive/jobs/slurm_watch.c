@@ -9,7 +9,15 @@
 #include "text.h"
 
 /* A look at Slurm's queue costs its controller a message: often at first, then rarely. */
-enum { LOOK_FIRST_MS = 250, LOOK_LAST_MS = 10000, HELLO_MS = 30000 };
+enum {
+	LOOK_FIRST_MS = 250,
+	LOOK_LAST_MS = 10000,
+	HELLO_MS = 30000,
+	SWEEP_MS = 150,
+	SWEEPS_MAX = 20
+};
+
+static void on_sweep(uv_timer_t *t);
 
 /* ---- looking ---- */
 
@@ -177,7 +185,7 @@ static void job_work(struct slurm *s, struct slurm_job *j)
 	held &= j->want != WANT_END;
 	if (name && jobname && number)
 		j->busy = order_run(s->orders, argv, on_worked, s,
-		                      j->id << 3 | (held ? 4 : 0) | (int64_t)j->want);
+		                    j->id << 3 | (held ? 4 : 0) | (int64_t)j->want);
 	free(number);
 	free(name);
 	free(jobname);
@@ -191,7 +199,9 @@ void slurm_want(struct slurm *s, struct slurm_job *j, enum slurm_want want)
 	job_work(s, j);
 }
 
-static void on_swept(void *data, int64_t tag, int status, const char *output)
+/* ---- what a lost srun leaves ---- */
+
+static void on_cancelled(void *data, int64_t tag, int status, const char *output)
 {
 	(void)data;
 	(void)tag;
@@ -199,12 +209,51 @@ static void on_swept(void *data, int64_t tag, int status, const char *output)
 	(void)output;
 }
 
-void slurm_sweep(struct slurm *s, const struct slurm_job *j)
+void slurm_cancel(struct slurm *s, const struct slurm_job *j)
 {
 	char program[] = "scancel", quiet[] = "--quiet";
 	char *name = text_print("--name=%s", j->name);
 	char *argv[] = { program, quiet, name, NULL };
 	if (name)
-		order_run(s->orders, argv, on_swept, s, 0);
+		order_run(s->orders, argv, on_cancelled, s, 0);
 	free(name);
+}
+
+static void on_left(void *data, int64_t id, int status, const char *output)
+{
+	struct slurm *s = data;
+	struct slurm_job *j = slurm_job(s, id);
+	if (!j || !j->sweeping)
+		return;
+	if (!status && *output && ++j->sweeps < SWEEPS_MAX) {
+		if (!uv_is_active((uv_handle_t *)&s->sweep))
+			uv_timer_start(&s->sweep, on_sweep, SWEEP_MS, 0);
+		j->busy = false;
+		return;
+	}
+	j->sweeping = false;
+	s->sink.exited(s->sink.data, id, &j->exit);
+}
+
+static void on_sweep(uv_timer_t *t)
+{
+	struct slurm *s = t->data;
+	char program[] = "squeue", bare[] = "--noheader";
+	for (struct slurm_job *j = s->jobs; j; j = j->next) {
+		char *name = j->sweeping && !j->busy ? text_print("--name=%s", j->name) : NULL;
+		char *argv[] = { program, bare, name, NULL };
+		if (name)
+			j->busy = order_run(s->orders, argv, on_left, s, j->id);
+		free(name);
+	}
+}
+
+void slurm_sweep(struct slurm *s, struct slurm_job *j, const struct launcher_exit *e)
+{
+	j->exit = *e;
+	j->sweeping = true;
+	j->busy = false;
+	j->want = j->is = WANT_END;
+	slurm_cancel(s, j);
+	uv_timer_start(&s->sweep, on_sweep, SWEEP_MS, 0);
 }

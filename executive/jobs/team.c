@@ -196,6 +196,7 @@ static void progress(struct team *t, const char *phase)
 	json_set_int(o, "done", done);
 	json_set_int(o, "total", total);
 	json_set_text(o, "phase", phase);
+	json_set_text(o, "host", t->hosts.n ? t->hosts.s : NULL);
 	tell(t, MESSAGE_PROGRESS, o);
 }
 

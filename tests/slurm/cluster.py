@@ -152,6 +152,11 @@ class Cluster:
                               env=self.environment, text=True, capture_output=True,
                               timeout=GUARD_S)
 
+    def start_program(self, *command):
+        return subprocess.Popen([self.programs[command[0]], *command[1:]], env=self.environment,
+                                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL)
+
     def states(self):
         return self.run("sinfo", "-h", "-N", "-o", "%T").stdout.split()
 
