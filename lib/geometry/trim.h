@@ -33,8 +33,8 @@ enum status trim_loop_add(struct trim_loop *loop, struct curve *c);
 /*
  * Check and mend: curves put in order and direction (outer loops counter-clockwise, inner ones
  * clockwise), gaps up to `tolerance` (in space, file units) closed, what runs along the domain's
- * border or leaves it by less than the tolerance laid on it, loops over the seam of a closed surface
- * cut there. A loop that winds around a closed surface leaves what is on its left; two of them
+ * border but for less than the tolerance laid on it, loops over the seam of a closed surface, or a
+ * little (a hundredth of the domain) out of an open one, cut there. A loop that winds around a closed surface leaves what is on its left; two of them
  * leave what lies between. What was mended is said as a note; what cannot be is an error and leaves
  * *t as it was. That a loop does not cross itself is not checked; if it does, what it goes around
  * an odd number of times is inside. `what` names the face.

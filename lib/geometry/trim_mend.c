@@ -9,6 +9,10 @@
 /* Gaps below this, in sizes of the surface, are rounding and not told. */
 static const double rounding = 1e-9;
 
+/* A loop may leave the domain by this part of it, and is cut there; one that goes farther belongs
+ * to something else. */
+static const double beyond = 0.01;
+
 void trim_curve_end(const struct curve *c, int end, double uv[2])
 {
 	const double *p = c->points + (end ? 4 * ((size_t)c->n - 1) : 0);
@@ -116,8 +120,8 @@ static enum status fail(const struct mender *m, const char *fault)
 	return report_error(m->r, ST_INPUT, "%s: trimming loop %d %s", m->what, m->loop, fault);
 }
 
-/* What of the curve runs along a border, but for less than the tolerance, or beyond it by less,
- * comes to lie on it. */
+/* A curve that runs along a border, but for less than the tolerance, comes to lie on it; an end so
+ * near, too. */
 static void snap(const struct mender *m, struct curve *c)
 {
 	for (int d = 0; d < 2; d++)
@@ -130,10 +134,8 @@ static void snap(const struct mender *m, struct curve *c)
 			}
 			for (int i = 0; i < c->n; i++) {
 				double *p = c->points + 4 * (size_t)i;
-				double x = p[d] / p[3], over = end ? x - at : at - x;
 				bool tip = i == 0 || i == c->n - 1;
-				if (along || (over > 0 && over <= m->near[d]) ||
-				    (tip && fabs(over) <= m->near[d]))
+				if (along || (tip && fabs(p[d] / p[3] - at) <= m->near[d]))
 					p[d] = at * p[3];
 			}
 		}
@@ -277,34 +279,37 @@ static enum status close_gaps(struct mender *m, struct trim_loop *l, double wind
 	return st;
 }
 
-/* Does anything of it leave the domain by more than rounding? *d: in which direction. */
-static enum status leaves(const struct mender *m, const struct trim_loop *l, bool out[2])
+/* By how much it leaves the domain in each direction, in domains; 0 where it is within tolerance. */
+static enum status leaves(const struct mender *m, const struct trim_loop *l, double over[2])
 {
-	out[0] = out[1] = false;
+	over[0] = over[1] = 0;
 	for (int i = 0; i < l->n; i++) {
 		struct box b;
 		enum status st = curve_box(&l->curves[i], 1e-3 * fmin(m->near[0], m->near[1]), &b);
 		if (st != ST_OK)
 			return st;
 		const double lo[2] = { b.lo.x, b.lo.y }, hi[2] = { b.hi.x, b.hi.y };
-		for (int d = 0; d < 2; d++)
-			out[d] |= lo[d] < m->s->domain[d][0] - 1.01 * m->near[d] ||
-			          hi[d] > m->s->domain[d][1] + 1.01 * m->near[d];
+		for (int d = 0; d < 2; d++) {
+			const double *range = m->s->domain[d];
+			double by = fmax(range[0] - lo[d], hi[d] - range[1]);
+			if (by > 1.01 * m->near[d])
+				over[d] = fmax(over[d], by / m->length[d]);
+		}
 	}
 	return ST_OK;
 }
 
-/* Over the seam in one direction, then, each part, in the other. */
+/* Cut at the seam, or where it leaves the domain, in one direction, then, each part, in the other. */
 static enum status put_in_domain(struct mender *m, struct trim_loop *l, struct trim *out)
 {
 	struct trim parts = { 0 };
-	bool over[2];
+	double over[2];
 	enum status st = leaves(m, l, over);
-	if (st == ST_OK && ((over[0] && !m->closed[0]) || (over[1] && !m->closed[1])))
-		st = fail(m, "leaves the domain of its surface; expected it inside");
 	for (int d = 0; d < 2 && st == ST_OK; d++) {
-		if (!over[d])
+		if (over[d] == 0)
 			continue;
+		if (!m->closed[d] && over[d] > beyond)
+			return fail(m, "leaves the domain of its surface; expected it inside");
 		st = trim_seam_cut(m, l, d, &parts);
 		for (int i = 0; i < parts.n && st == ST_OK; i++)
 			st = put_in_domain(m, &parts.loops[i], out);
@@ -432,7 +437,8 @@ static void say(const struct mender *m)
 		            "%s: %d curves of its trimming loops turned about, %d put in order",
 		            m->what, m->turned, m->moved);
 	if (m->cut)
-		report_info(m->r, "%s: %d trimming loops cut at the seam", m->what, m->cut);
+		report_info(m->r, "%s: %d trimming loops cut at the seam or the border", m->what,
+		            m->cut);
 }
 
 /* Loops that wind around, until all are known. */

@@ -29,7 +29,8 @@ enum status trim_add_line(struct trim_loop *l, const double from[2], const doubl
 
 /*
  * A loop in order and direction that may run over the seams of direction d any number of times, as
- * if the domain went on there: cut at the seams, and closed along them. Loops are appended to out.
+ * if the domain went on there: cut at the seams, and closed along them. Of a direction that is not
+ * closed the parts inside the domain are kept. Loops are appended to out.
  * Errors: ST_INPUT, ST_RESOURCE.
  */
 enum status trim_seam_cut(struct mender *m, const struct trim_loop *loop, int d, struct trim *out);

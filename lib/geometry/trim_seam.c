@@ -255,7 +255,7 @@ enum status trim_seam_cut(struct mender *m, const struct trim_loop *loop, int d,
 		m->cut++;
 		st = link_runs(m, runs, n);
 		for (int i = 0; i < n && st == ST_OK; i++)
-			if (!runs[i].done)
+			if (!runs[i].done && (m->closed[d] || runs[i].strip == 0))
 				st = walk(m, &p, runs, i, d, loop->outer, out);
 	}
 	free(runs);

@@ -9,12 +9,18 @@ static double area_of(const struct trim *t, const struct surface *s)
 	return area;
 }
 
-static void mend(struct trim *t, const struct surface *s, double tolerance)
+static void mend_loosely(struct trim *t, const struct surface *s, double tolerance)
 {
 	struct report_store store;
 	report_store_init(&store);
 	if (trim_mend(t, s, tolerance, "face", &store.report) != ST_OK)
 		fail_msg("%s", store.error);
+}
+
+/* All must lie in the domain, and curves begin where the last end. */
+static void mend(struct trim *t, const struct surface *s, double tolerance)
+{
+	mend_loosely(t, s, tolerance);
 	for (int i = 0; i < t->n; i++)
 		for (int j = 0; j < t->loops[i].n; j++) {
 			const struct trim_loop *l = &t->loops[i];
@@ -95,6 +101,24 @@ static void what_is_near_the_border_lies_on_it(void **state)
 			assert_true(trim_test_inside(x, i / 10.0, j / 10.0));
 	trim_test_destroy(x);
 	trim_finish(&t);
+	surface_finish(&s);
+}
+
+/* A disc that is a little larger than its square, as circles inscribed in their surface are after
+ * rounding: what lies beyond is cut off, and nothing else. */
+static void what_leaves_a_little_is_cut_off(void **state)
+{
+	struct surface s = shape_plane(1, 1);
+	(void)state;
+	for (int k = 0; k < 6; k++) {
+		struct trim t = { 0 };
+		double r = 0.5 + pow(10, -2.2 - k);
+		double half = acos(0.5 / r), segment = r * r * (half - sin(half) * cos(half));
+		trim_add_ellipse(&t, true, 0.5, 0.5, r, r, 0.2 * k);
+		mend_loosely(&t, &s, 1e-6);
+		assert_float_equal(area_of(&t, &s), M_PI * r * r - 4 * segment, 1e-9);
+		trim_finish(&t);
+	}
 	surface_finish(&s);
 }
 
@@ -261,6 +285,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(order_direction_and_gaps),
 		cmocka_unit_test(what_is_near_the_border_lies_on_it),
+		cmocka_unit_test(what_leaves_a_little_is_cut_off),
 		cmocka_unit_test(holes_over_seams),
 		cmocka_unit_test(loops_round_a_tube),
 		cmocka_unit_test(seams_and_poles_in_loops),
