@@ -39,8 +39,9 @@ void exr_tile_window(const struct exr_image *im, size_t i, int *x, int *y, int *
 
 /*
  * Pack tile i: planes[c] holds the tile's values of channel c, w x h floats without gaps; half
- * channels are converted to nearest, ties to even. The bytes are appended to *out. Level 2 zip.
- * The bytes depend on nothing but size and values. Thread: any. Errors: ST_RESOURCE.
+ * channels are converted to nearest, ties to even. The bytes are appended to *out. Level 2 zip, or
+ * as they are where that saves less than a tenth. The bytes depend on nothing but size and values.
+ * Thread: any. Errors: ST_RESOURCE.
  */
 enum status exr_pack(const struct exr_image *im, size_t i, const float *const *planes,
                      struct text *out);

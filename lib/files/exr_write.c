@@ -7,8 +7,12 @@
 #include <unistd.h>
 
 #include <openexr.h>
+#include <zlib.h>
 
-enum { ZIP_LEVEL = 2 };
+enum { ZIP_LEVEL = 2, SLICE = 4096 };
+
+/* What a sample must shrink to for a tile to be compressed at all. */
+static const double worth = 0.9;
 
 int exr_tiles_across(const struct exr_image *im)
 {
@@ -115,11 +119,48 @@ static exr_result_t begin(exr_context_t *out, const char *name, struct sink *sin
 	return e;
 }
 
+/* Where a chunk goes, and how it is compressed by the library. */
+struct chunk {
+	struct text *out;
+	exr_result_t (*compress)(exr_encode_pipeline_t *e);
+	bool plain; /* it was not worth it */
+};
+
+/*
+ * Whether zip saves a tenth, from a slice of either half of what it would work on: the differences of
+ * the even bytes, and of the odd ones. The mantissas of smooth values in float are noise: of a map
+ * of curvatures zip saved 8 % and took three quarters of the whole job's time.
+ */
+static bool is_worth(const uint8_t *bytes, size_t n)
+{
+	uint8_t sample[2 * SLICE], packed[2 * SLICE];
+	if (n < 4 * sizeof sample)
+		return true;
+	for (int half = 0; half < 2; half++) {
+		const uint8_t *p = bytes + (n / 4 - SLICE / 2) * 2 + half;
+		for (int i = 0; i < SLICE; i++)
+			sample[half * SLICE + i] = (uint8_t)(p[2 * i] - p[2 * i - 2]);
+	}
+	uLongf size = (uLongf)(worth * sizeof packed);
+	return compress2(packed, &size, sample, sizeof sample, ZIP_LEVEL) == Z_OK;
+}
+
+/* As the format has it: what does not become smaller stays as it is. */
+static exr_result_t compress_chunk(exr_encode_pipeline_t *e)
+{
+	struct chunk *chunk = e->encoding_user_data;
+	chunk->plain = !is_worth(e->packed_buffer, e->packed_bytes);
+	return chunk->plain ? EXR_ERR_SUCCESS : chunk->compress(e);
+}
+
 static exr_result_t take_chunk(exr_encode_pipeline_t *e)
 {
-	struct text *out = e->encoding_user_data;
-	text_add_bytes(out, e->compressed_buffer, e->compressed_bytes);
-	return out->failed ? EXR_ERR_OUT_OF_MEMORY : EXR_ERR_SUCCESS;
+	const struct chunk *chunk = e->encoding_user_data;
+	if (chunk->plain)
+		text_add_bytes(chunk->out, e->packed_buffer, e->packed_bytes);
+	else
+		text_add_bytes(chunk->out, e->compressed_buffer, e->compressed_bytes);
+	return chunk->out->failed ? EXR_ERR_OUT_OF_MEMORY : EXR_ERR_SUCCESS;
 }
 
 /* The library keeps channels sorted by name; planes come in the image's order. */
@@ -147,10 +188,10 @@ enum status exr_pack(const struct exr_image *im, size_t i, const float *const *p
 	if (begin(&f, "tile", &nowhere, im, w, h))
 		return ST_RESOURCE;
 	exr_encode_pipeline_t pipe = EXR_ENCODE_PIPELINE_INITIALIZER;
-	exr_chunk_info_t chunk;
-	exr_result_t e = exr_write_tile_chunk_info(f, 0, 0, 0, 0, 0, &chunk);
+	exr_chunk_info_t info;
+	exr_result_t e = exr_write_tile_chunk_info(f, 0, 0, 0, 0, 0, &info);
 	if (!e)
-		e = exr_encoding_initialize(f, 0, &chunk, &pipe);
+		e = exr_encoding_initialize(f, 0, &info, &pipe);
 	for (int c = 0; c < pipe.channel_count && !e; c++) {
 		exr_coding_channel_info_t *ch = &pipe.channels[c];
 		ch->encode_from_ptr = (const uint8_t *)plane_of(im, planes, ch->channel_name);
@@ -161,7 +202,9 @@ enum status exr_pack(const struct exr_image *im, size_t i, const float *const *p
 	}
 	if (!e)
 		e = exr_encoding_choose_default_routines(f, 0, &pipe);
-	pipe.encoding_user_data = out;
+	struct chunk chunk = { .out = out, .compress = pipe.compress_fn };
+	pipe.encoding_user_data = &chunk;
+	pipe.compress_fn = compress_chunk;
 	pipe.write_fn = take_chunk;
 	if (!e)
 		e = exr_encoding_run(f, 0, &pipe);
