@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 /* Of the diagonal of the box of all surfaces. */
-static const double default_tolerance = 1e-3, join_within = 1e-5;
+static const double default_tolerance = 1e-3, join_within = 1e-4;
 
 /* The surfaces of a model and what they are called; both arrays have room for all entities. */
 struct chosen {
