@@ -43,7 +43,7 @@ enum message_way { FROM_WORKER = 1, TO_WORKER = 2, FROM_CLIENT = 4, FROM_SERVICE
 	X(HOLD, 134, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                                  \
 	X(RELEASE, 135, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                               \
 	X(RETRY, 136, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                                 \
-	X(PRIORITY, 137, FROM_CLIENT, "id:i jobs:a? group:s? all:b? priority:i")                   \
+	X(PRIORITY, 137, FROM_CLIENT, "id:i jobs:a? group:s? all:b? priority:i top:b?")                   \
 	X(WAIT, 138, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                                  \
 	X(LOG, 139, FROM_CLIENT, "id:i job:i follow:b?")                                           \
 	X(SHUTDOWN, 140, FROM_CLIENT, "id:i")                                                      \

@@ -1,10 +1,13 @@
 /* connection.c - what the verbs that talk to the service share. */
 #include "connection.h"
 
+#include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "json.h"
 #include "number.h"
+#include "settings.h"
 
 enum status connection_open(struct connection *c, const struct invocation *i, bool start)
 {
@@ -24,6 +27,17 @@ void connection_close(struct connection *c)
 	client_close(c->client);
 	project_finish(&c->project);
 	*c = (struct connection){ 0 };
+}
+
+void connection_bell(const struct connection *c)
+{
+	struct settings s;
+
+	if (!isatty(STDERR_FILENO) || settings_read(&s, &c->project, NULL) != ST_OK)
+		return;
+	if (!strcmp(s.value[SETTING_BELL], "on"))
+		fputc('\a', stderr);
+	settings_finish(&s);
 }
 
 enum status connection_selection(const struct invocation *i, bool need, json_t **body)

@@ -15,6 +15,9 @@ struct connection {
 enum status connection_open(struct connection *c, const struct invocation *i, bool start);
 void connection_close(struct connection *c);
 
+/* Ring the terminal, where the setting wants that. */
+void connection_bell(const struct connection *c);
+
 /*
  * Body of a request about the jobs named: {"jobs":[12,13]}, {"group":G} or {"all":true}.
  * need: at least one must be named. Errors: ST_PARAMETER. New reference.

@@ -125,6 +125,7 @@ static int run_run(const struct invocation *i)
 	int rc = status_exit(st);
 	if (st == ST_OK) {
 		rc = job_list_exit(&b.list);
+		connection_bell(&c);
 		if (i->json && job_list_print_json(&b.list))
 			rc = 1;
 		else if (!i->json)

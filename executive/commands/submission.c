@@ -22,11 +22,13 @@ enum { PACKET_ROOM = 48 * 1024 }; /* bytes of jobs in one SUBMIT */
 
 const struct option_row submission_options[] = {
 	{ "--output", "-o", "NAME", "basic name of the results, or the whole file name" },
-	{ "--after", NULL, "ID", "start when job ID is done (several: ID,ID)" },
+	{ "--after", NULL, "ID",
+	  "start when job ID is done, ID:any: however it ends (several: ID,ID)" },
 	{ "--group", NULL, "G", "name of the group the jobs belong to" },
 	{ "--priority", NULL, "N", "higher starts first (default 0)" },
 	{ "--threads", NULL, "N", "threads of each job (default: setting threads)" },
 	{ "--memory", NULL, "MIB", "memory of each job (default: setting memory)" },
+	{ "--wall", NULL, "S", "seconds each job may run (default: setting wall)" },
 	{ "--on", NULL, "WHERE", "local or slurm (default: setting launcher)" },
 	{ "--shards", NULL, "N", "cut each job into N processes (up to 1024)" },
 	{ "--partition", NULL, "P", "partition of Slurm (default: setting slurm-partition)" },
@@ -60,7 +62,8 @@ struct submission {
 	json_t *parameters;
 	struct input *inputs;
 	size_t n_inputs;
-	json_t *after;
+	json_t *after, *after_any;
+	double wall;
 	long priority, threads, memory, shards;
 	char *on; /* owned */
 };
@@ -145,15 +148,25 @@ static enum status check_options(struct submission *s, const struct project *pro
 		st = invocation_integer(i, "--shards", 1, SHARDS_MAX, 1, &s->shards);
 	if (st == ST_OK)
 		st = check_place(s, project);
+	const char *wall = invocation_value(i, "--wall");
+	if (st == ST_OK && wall && (!number_parse(wall, &s->wall) || !(s->wall > 0)))
+		return report_error(&i->report, ST_PARAMETER,
+		                    "--wall is '%s'; it must be seconds, more than 0", wall);
 	s->after = json_array();
+	s->after_any = json_array();
 	for (const char *p = after; st == ST_OK && p && *p; p += *p == ',') {
 		int64_t id;
 		const char *end = p + strlen(p);
-		if (!number_read_integer(&p, end, &id) || id < 1 || (*p && *p != ','))
+		bool good = number_read_integer(&p, end, &id) && id > 0;
+		bool any = good && !strncmp(p, ":any", 4);
+		p += any ? 4 : 0;
+		if (!good || (*p && *p != ','))
 			return report_error(
 			        &i->report, ST_PARAMETER,
-			        "--after is '%s'; it must be the numbers of jobs, by comma", after);
-		json_array_append_new(s->after, json_integer(id));
+			        "--after is '%s'; it must be the numbers of jobs, by comma, each with "
+			        ":any behind it where any end will do",
+			        after);
+		json_array_append_new(any ? s->after_any : s->after, json_integer(id));
 	}
 	return st;
 }
@@ -253,6 +266,9 @@ static json_t *make_job(const struct submission *s, const char *group, size_t fi
 	json_object_set_new(o, "inputs", inputs);
 	json_object_set(o, "parameters", s->parameters);
 	json_object_set(o, "after", s->after);
+	json_object_set(o, "after_any", s->after_any);
+	if (s->wall > 0)
+		json_object_set_new(o, "wall_limit_s", json_real(s->wall));
 	json_object_set_new(o, "force", json_boolean(invocation_flag(s->i, "--force")));
 	free(output);
 	return o;
@@ -359,6 +375,7 @@ enum status submission_send(const struct invocation *i, struct connection *c, st
 	free(s.on);
 	json_decref(s.parameters);
 	json_decref(s.after);
+	json_decref(s.after_any);
 	roster_finish(&s.roster);
 	project_finish(&p);
 	return st;

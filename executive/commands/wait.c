@@ -83,6 +83,7 @@ static int wait_run(const struct invocation *i)
 	int rc = status_exit(st);
 	if (st == ST_OK) {
 		rc = out_of_time ? EXIT_TIMEOUT : job_list_exit(&list) ? 1 : 0;
+		connection_bell(&c);
 		if (i->json && job_list_print_json(&list))
 			rc = 1;
 	}

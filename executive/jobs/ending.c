@@ -137,6 +137,7 @@ void job_gone(struct job *job)
 	if (complete && cause != CAUSE_FAULT && !job->error) {
 		job_enter(job, JOB_DONE);
 		job_reason(job, NULL);
+		history_add(job);
 	} else if (cause == CAUSE_KILL) {
 		job_enter(job, JOB_KILLED);
 	} else if (cause == CAUSE_LEAVE && job->stats.state == JOB_SUSPENDED) {

@@ -19,6 +19,14 @@ struct pool {
 	int active;                /* starting, running or ending */
 	int threads;               /* of those */
 	int64_t memory_mib;        /* of jobs with a process */
+	int64_t room_mib;          /* that blocked found on its disk and were too few; -1 */
+};
+
+/* What the jobs of a worker took, for those of which no progress is known yet. */
+struct history {
+	char *worker;          /* owned */
+	double seconds, units; /* of all of them; seconds of one thread */
+	int jobs;
 };
 
 /* So many at once, then so many a second. */
@@ -48,7 +56,8 @@ struct job {
 	enum status error; /* class of its ERROR packet, ST_OK: none */
 	double deadline;   /* of the clock; INFINITY: none */
 	double began, stopped_at, stopped_s;
-	double pace_at; /* running seconds at the first PROGRESS of the phase, NaN: none */
+	double greeted_s; /* running seconds at HELLO */
+	double pace_at;   /* running seconds at the first PROGRESS of the phase, NaN: none */
 	int64_t pace_done;
 	struct bucket packets, notes;
 
@@ -74,6 +83,9 @@ struct queue {
 	bool leaving, unsettled;
 	char *fault; /* owned; why the ledger takes nothing */
 	double retry_at;
+	double look_at;          /* when to look for room on a disk again */
+	struct history *history; /* owned */
+	int n_history;
 	double sync_at;  /* when the ends of jobs must be on the disk */
 	int64_t sync_id; /* one of those jobs */
 };
@@ -99,9 +111,15 @@ void job_end(struct job *job, enum job_cause cause, enum ending step);
 void job_escalate(struct job *job);
 void job_gone(struct job *job); /* its final state, or queued again */
 
+/* history.c */
+void history_add(struct job *job);             /* it is done */
+double history_seconds(const struct job *job); /* that it will run, NaN: not known */
+void history_finish(struct queue *q);
+
 /* packets.c */
 void job_packet(struct job *job, const struct message *m);
 double job_running_s(const struct job *job); /* seconds of this run, suspended ones left out */
+double job_wall_end(const struct job *job);  /* of the clock, INFINITY: no limit */
 void job_times(struct job *job);             /* wall_s, suspended_s, eta_s as of now */
 
 /* line.c */
@@ -110,6 +128,7 @@ void line_remove(struct job *job);
 void line_start(struct queue *q);  /* start what may start */
 void line_settle(struct queue *q); /* look at the jobs that wait for others */
 int line_unsettled(const struct job *job);
-void line_reason(struct job *job); /* why it waits */
+bool line_depends(const struct job *job); /* on others */
+void line_reason(struct job *job);        /* why it waits */
 
 #endif

@@ -17,10 +17,39 @@ struct book {
 	bool full; /* synchronous=FULL is set */
 };
 
+/* What to do, by SQLite's code. */
+static const char *advice(int code)
+{
+	static const struct {
+		int code;
+		const char *text;
+	} rows[] = {
+		{ SQLITE_FULL, "; make room on its disk" },
+		{ SQLITE_IOERR, "; see whether its disk is full or failing" },
+		{ SQLITE_READONLY, "; make the file and its folder writable" },
+		{ SQLITE_CANTOPEN, "; make its folder writable" },
+		{ SQLITE_PERM, "; make the file and its folder writable" },
+		{ SQLITE_NOTADB,
+		  "; it is damaged: put a copy in its place, or move it away to begin "
+		  "without its jobs" },
+		{ SQLITE_CORRUPT,
+		  "; it is damaged: mend it with 'sqlite3 FILE .recover', or move it "
+		  "away to begin without its jobs" },
+		{ SQLITE_BUSY, "; another program has it open: close that" },
+	};
+	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+		if (rows[i].code == (code & 0xff))
+			return rows[i].text;
+	return "";
+}
+
 static enum status book_error(const struct book *b, const char *what, const struct report *r)
 {
-	return report_error(r, ST_RESOURCE, "cannot %s the ledger '%s': %s", what, b->path,
-	                    b->db ? sqlite3_errmsg(b->db) : "out of memory");
+	if (!b->db)
+		return report_error(r, ST_RESOURCE, "cannot %s the ledger '%s': out of memory",
+		                    what, b->path);
+	return report_error(r, ST_RESOURCE, "cannot %s the ledger '%s': %s%s", what, b->path,
+	                    sqlite3_errmsg(b->db), advice(sqlite3_errcode(b->db)));
 }
 
 static bool book_step(sqlite3_stmt *s)
@@ -82,8 +111,17 @@ static enum status row_load(struct book *b, sqlite3_stmt *s, ledger_job *each, v
 	const char *text = (const char *)sqlite3_column_text(s, 3);
 	json_t *o = text ? json_loadb(text, (size_t)sqlite3_column_bytes(s, 3), 0, NULL) : NULL;
 	struct Stats stats;
-	enum status st = o ? stats_from_json(&stats, o) : ST_INPUT;
+	enum status st = stats_from_json(&stats, o);
 	json_decref(o);
+	if (st == ST_INPUT) {
+		/* one record that is damaged costs that job, not the others */
+		stats_finish(&stats);
+		stats_init(&stats);
+		stats.state = JOB_LOST;
+		stats.worker = strdup("unknown");
+		stats.reason = strdup("its record in the ledger is damaged; submit it again");
+		st = ST_OK;
+	}
 	if (st == ST_OK) {
 		stats.id = sqlite3_column_int64(s, 0);
 		st = each(each_data, &stats, sqlite3_column_int(s, 1), sqlite3_column_int(s, 2));

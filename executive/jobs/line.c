@@ -6,6 +6,9 @@
 
 #include "job.h"
 
+/* A disk that is full is looked at again each second. */
+static const double look_s = 1;
+
 /* Those put first, then by priority, then by age. */
 static bool before(const struct job *a, const struct job *b)
 {
@@ -92,6 +95,17 @@ static bool memory_free(const struct queue *q, const struct job *job)
 	return !is_here(job) || !limit || !wants || !used || used + wants <= limit;
 }
 
+/* Is there room for what it makes? Looked at only when it could start otherwise. */
+static bool disk_free(struct queue *q, struct pool *pool, struct job *job)
+{
+	int64_t mib = q->ports.room ? q->ports.room(q->ports.room_data, &job->stats) : -1;
+	if (mib < 0 || mib >= q->limits.disk_floor_mib)
+		return true;
+	pool->room_mib = mib;
+	q->look_at = queue_now(q) + look_s;
+	return false;
+}
+
 static bool active_room(struct queue *q)
 {
 	if (q->n_active < q->active_cap)
@@ -153,13 +167,14 @@ static void start(struct job *job)
 static void pool_start(struct queue *q, struct pool *pool)
 {
 	pool->blocked = NULL;
+	pool->room_mib = -1;
 	for (struct job *job = pool->first, *next; job; job = next) {
 		next = job->next;
 		if (job->unsettled)
 			continue;
 		if (!slot_free(q, pool))
 			return;
-		if (!threads_free(q, job) || !memory_free(q, job)) {
+		if (!threads_free(q, job) || !memory_free(q, job) || !disk_free(q, pool, job)) {
 			pool->blocked = job;
 			return;
 		}
@@ -173,13 +188,33 @@ void line_start(struct queue *q)
 		pool_start(q, &q->pools[i]);
 }
 
+bool line_depends(const struct job *job)
+{
+	return job->stats.n_after || job->stats.n_after_any;
+}
+
+static int n_awaited(const struct job *job)
+{
+	return job->stats.n_after + job->stats.n_after_any;
+}
+
+/* One that it waits for still; NULL: forgotten, or come to the end that it waited for. */
+static const struct job *awaited(const struct job *job, int i)
+{
+	const struct Stats *s = &job->stats;
+	bool any = i >= s->n_after;
+	const struct job *other =
+	        queue_job(job->q, any ? s->after_any[i - s->n_after] : s->after[i]);
+	if (!other || other->stats.state == JOB_DONE)
+		return NULL;
+	return any && job_state_table[other->stats.state].over ? NULL : other;
+}
+
 int line_unsettled(const struct job *job)
 {
 	int n = 0;
-	for (int i = 0; i < job->stats.n_after; i++) {
-		const struct job *other = queue_job(job->q, job->stats.after[i]);
-		n += other && other->stats.state != JOB_DONE;
-	}
+	for (int i = 0; i < n_awaited(job); i++)
+		n += awaited(job, i) != NULL;
 	return n;
 }
 
@@ -197,10 +232,10 @@ void line_settle(struct queue *q)
 		if (unsettled != job->unsettled)
 			job_changed(job, true);
 		job->unsettled = unsettled;
-		for (int k = 0; k < job->stats.n_after; k++) {
-			const struct job *other = queue_job(q, job->stats.after[k]);
+		for (int k = 0; k < n_awaited(job); k++) {
+			const struct job *other = awaited(job, k);
 			enum job_state state = other ? other->stats.state : JOB_DONE;
-			if (!job_state_table[state].over || state == JOB_DONE || job->fault)
+			if (!other || !job_state_table[state].over || job->fault)
 				continue;
 			job_fault(job,
 			          "not run: job %lld, which it waits for, is %s; retry that one "
@@ -219,9 +254,9 @@ static void reason_after(struct job *job)
 {
 	char list[128] = "";
 	int n = 0, shown = 0;
-	for (int i = 0; i < job->stats.n_after && n < (int)sizeof list - 24; i++) {
-		const struct job *other = queue_job(job->q, job->stats.after[i]);
-		if (!other || other->stats.state == JOB_DONE)
+	for (int i = 0; i < n_awaited(job) && n < (int)sizeof list - 24; i++) {
+		const struct job *other = awaited(job, i);
+		if (!other)
 			continue;
 		n += snprintf(list + n, sizeof list - (size_t)n, "%s%lld", shown++ ? ", " : "",
 		              (long long)other->stats.id);
@@ -250,6 +285,9 @@ void line_reason(struct job *job)
 		job_reason(job, "memory: %lld of %lld MiB in use, it wants %lld",
 		           (long long)pool->memory_mib, (long long)q->limits.memory_mib,
 		           (long long)job_memory_mib(job));
+	else if (pool->blocked == job && pool->room_mib >= 0)
+		job_reason(job, "disk: %lld MiB left where it writes, %lld wanted; make room",
+		           (long long)pool->room_mib, (long long)q->limits.disk_floor_mib);
 	else if (pool->blocked)
 		job_reason(job, "behind job %lld", (long long)pool->blocked->stats.id);
 	else

@@ -41,6 +41,14 @@ double job_running_s(const struct job *job)
 	return now - job->began - stopped_s(job, now);
 }
 
+double job_wall_end(const struct job *job)
+{
+	double limit = job->stats.wall_limit_s;
+	if (!(limit > 0) || job->stats.state != JOB_RUNNING)
+		return INFINITY;
+	return job->began + job->stopped_s + job->greeted_s + limit;
+}
+
 void job_times(struct job *job)
 {
 	struct Stats *s = &job->stats;
@@ -51,9 +59,10 @@ void job_times(struct job *job)
 	s->suspended_s = stopped_s(job, now);
 	double running = s->wall_s - s->suspended_s;
 	double rate = (double)(s->done - job->pace_done) / (running - job->pace_at);
-	s->eta_s = rate > 0 && isfinite(rate) && s->total >= s->done
-	                   ? (double)(s->total - s->done) / rate
-	                   : NAN;
+	if (rate > 0 && isfinite(rate) && s->total >= s->done)
+		s->eta_s = (double)(s->total - s->done) / rate;
+	else
+		s->eta_s = fdim(history_seconds(job), running);
 }
 
 static void take_host(struct job *job, const json_t *o)
@@ -85,6 +94,7 @@ static void on_hello(struct job *job, const json_t *o)
 	}
 	job->greeted = true;
 	take_host(job, o);
+	job->greeted_s = job_running_s(job);
 	if (job->stats.state == JOB_ENDING)
 		return;
 	json_t *start = json_object();

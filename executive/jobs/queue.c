@@ -15,7 +15,7 @@ enum status queue_create(struct queue **out, const struct queue_ports *ports,
 		return ST_RESOURCE;
 	q->ports = *ports;
 	q->limits = *limits;
-	q->retry_at = q->sync_at = INFINITY;
+	q->retry_at = q->sync_at = q->look_at = INFINITY;
 	*out = q;
 	return ST_OK;
 }
@@ -39,6 +39,7 @@ void queue_destroy(struct queue *q)
 	free(q->active);
 	free(q->changed);
 	free(q->fault);
+	history_finish(q);
 	free(q);
 }
 
@@ -108,6 +109,23 @@ void job_changed(struct job *job, bool urgent)
 		job->news = true;
 }
 
+/* What it waits for was there before it; -1 - i is job i of the same request. */
+static enum status after_check(const struct queue *q, const char *how, int64_t *ids, int n,
+                               int64_t id, int64_t first, const struct report *r)
+{
+	for (int k = 0; k < n; k++) {
+		if (ids[k] < 0 && ids[k] > -INT32_MAX)
+			ids[k] = first - 1 - ids[k];
+		if (ids[k] < 1 || ids[k] >= id || (ids[k] < first && !queue_job(q, ids[k])))
+			return report_error(
+			        r, ST_PARAMETER,
+			        "--after %lld%s: there is no such job; 'batten jobs --all' "
+			        "lists them",
+			        (long long)ids[k], how);
+	}
+	return ST_OK;
+}
+
 /* Fields that a client gives; the rest is the queue's own. */
 static enum status job_submitted(struct job *job, const struct Stats *given, int64_t first, int i,
                                  const struct report *r)
@@ -129,24 +147,19 @@ static enum status job_submitted(struct job *job, const struct Stats *given, int
 		s->threads = q->limits.job_threads;
 	if (s->memory_mib < 1)
 		s->memory_mib = q->limits.job_memory_mib;
-	for (int k = 0; k < s->n_after; k++) {
-		if (s->after[k] < 0)
-			s->after[k] = first - 1 - s->after[k];
-		if (s->after[k] >= s->id || (s->after[k] < first && !queue_job(q, s->after[k])))
-			return report_error(
-			        r, ST_PARAMETER,
-			        "--after %lld: there is no such job; 'batten jobs --all' "
-			        "lists them",
-			        (long long)s->after[k]);
-	}
-	return ST_OK;
+	if (!(s->wall_limit_s > 0))
+		s->wall_limit_s = q->limits.job_wall_s;
+	st = after_check(q, "", s->after, s->n_after, s->id, first, r);
+	if (st == ST_OK)
+		st = after_check(q, ":any", s->after_any, s->n_after_any, s->id, first, r);
+	return st;
 }
 
 static void queue_insert(struct queue *q, struct job *job)
 {
 	q->jobs[q->n++] = job;
 	q->count[job->stats.state]++;
-	q->dependents += job->stats.n_after > 0;
+	q->dependents += line_depends(job);
 	if (job->stats.id > q->last)
 		q->last = job->stats.id;
 }
@@ -193,7 +206,7 @@ enum status queue_submit(struct queue *q, const struct Stats *s, int n, int64_t 
 	if (st != ST_OK) {
 		while (q->n > before) {
 			q->count[JOB_QUEUED]--;
-			q->dependents -= q->jobs[--q->n]->stats.n_after > 0;
+			q->dependents -= line_depends(q->jobs[--q->n]);
 		}
 		q->last = last;
 		for (int i = 0; i < made; i++)
@@ -208,6 +221,23 @@ enum status queue_submit(struct queue *q, const struct Stats *s, int n, int64_t 
 	return st;
 }
 
+/* It had begun under an earlier service: does it go on by itself? */
+static void job_resumed(struct job *job)
+{
+	long long id = job->stats.id;
+	if (job->q->limits.resume == RESUME_ASK) {
+		job_enter(job, JOB_HELD);
+		job_reason(job, "the service ended while it ran; 'batten release %lld' goes on",
+		           id);
+	} else if (job->q->limits.resume == RESUME_NEVER) {
+		job_enter(job, JOB_LOST);
+		job_reason(job,
+		           "the service ended while it ran; 'batten retry %lld' goes on from its "
+		           "part file",
+		           id);
+	}
+}
+
 /* What had a process had it from a service that is no more. */
 static void job_loaded(struct job *job, bool killed)
 {
@@ -217,6 +247,10 @@ static void job_loaded(struct job *job, bool killed)
 	if (job->stats.pid > 0)
 		q->ports.launcher->bury(q->ports.launcher->data, &job->stats);
 	job->stats.pid = 0;
+	if (state == JOB_DONE)
+		history_add(job);
+	if (state == JOB_QUEUED && job->front && job->stats.started > 0)
+		job_resumed(job);
 	if (state != JOB_STARTING && state != JOB_RUNNING && state != JOB_ENDING)
 		return;
 	q->count[state]--;
@@ -232,6 +266,8 @@ static void job_loaded(struct job *job, bool killed)
 		job_enter(job, JOB_LOST);
 		job_reason(job, "the service ended while it ran, and it cannot go on: %s",
 		           store.error);
+	} else {
+		job_resumed(job);
 	}
 }
 
@@ -291,6 +327,26 @@ enum status queue_priority(struct queue *q, int64_t id, int priority, const stru
 	return ST_OK;
 }
 
+enum status queue_top(struct queue *q, int64_t id, const struct report *r)
+{
+	struct job *job = queue_job(q, id);
+	if (!job || (job->stats.state != JOB_QUEUED && job->stats.state != JOB_HELD))
+		return report_error(r, ST_INPUT, "job %lld does not wait: it cannot be put first",
+		                    (long long)id);
+	const struct job *first = job_pool(job)->first;
+	if (!first || first == job)
+		return ST_OK;
+	if (job->in_line)
+		line_remove(job);
+	job->front |= first->front;
+	if (job->stats.priority <= first->stats.priority)
+		job->stats.priority = first->stats.priority + 1;
+	if (job->stats.state == JOB_QUEUED)
+		line_add(job);
+	job_changed(job, true);
+	return ST_OK;
+}
+
 /* Close the gaps that forgotten jobs leave, in one pass. */
 static int without_forgotten(struct job **jobs, int n)
 {
@@ -326,7 +382,7 @@ enum status queue_forget(struct queue *q, const int64_t *ids, int n, const struc
 	}
 	for (int i = 0; i < n && st == ST_OK; i++) {
 		q->count[gone[i]->stats.state]--;
-		q->dependents -= gone[i]->stats.n_after > 0;
+		q->dependents -= line_depends(gone[i]);
 		job_destroy(gone[i]);
 	}
 	free(gone);
@@ -339,4 +395,18 @@ void queue_leave(struct queue *q)
 	q->leaving = true;
 	for (int i = q->n_active - 1; i >= 0; i--)
 		job_step(q->active[i], EV_LEAVE, NULL);
+}
+
+int queue_unended(const struct queue *q, const char *group, bool *all_done)
+{
+	int n = 0;
+	*all_done = true;
+	for (int i = 0; i < q->n; i++) {
+		const struct Stats *s = &q->jobs[i]->stats;
+		if (!s->group || strcmp(s->group, group))
+			continue;
+		n += !job_state_table[s->state].over;
+		*all_done &= s->state == JOB_DONE;
+	}
+	return n;
 }

@@ -16,12 +16,19 @@ struct clock {
 	double (*date)(void *data);    /* seconds since 1970 */
 };
 
+/* What becomes of a job that ran when the service or the machine died, at the next start: it goes on;
+ * it is held; it is lost. */
+enum resume { RESUME_AUTO, RESUME_ASK, RESUME_NEVER };
+
 struct queue_limits {
 	int jobs, threads;  /* at once on this machine; a single job of more threads runs alone */
 	int jobs_elsewhere; /* at once, of jobs that have other limits than this machine's */
 	int64_t memory_mib; /* at once, of jobs that state it; 0: no limit */
 	int job_threads;    /* of a job that does not say */
 	int64_t job_memory_mib;
+	double job_wall_s;      /* 0: no limit */
+	int64_t disk_floor_mib; /* no job starts where less is free */
+	enum resume resume;
 	double cancel_grace, term_grace, hello_grace, end_grace; /* seconds */
 };
 
@@ -32,6 +39,9 @@ struct queue_ports {
 	/* A job has changed, and the change is in the ledger; s is borrowed. */
 	void (*told)(void *data, const struct Stats *s);
 	void *told_data;
+	/* MiB free where a job writes, -1: not known. NULL: nobody looks. */
+	int64_t (*room)(void *data, const struct Stats *s);
+	void *room_data;
 };
 
 struct queue; /* opaque */
@@ -62,6 +72,8 @@ enum status queue_submit(struct queue *q, const struct Stats *s, int n, int64_t 
 enum status queue_event(struct queue *q, int64_t id, enum job_event event, const char *by,
                         const struct report *r);
 enum status queue_priority(struct queue *q, int64_t id, int priority, const struct report *r);
+/* Before all others of its line. Errors: ST_INPUT (it does not wait). */
+enum status queue_top(struct queue *q, int64_t id, const struct report *r);
 
 /* Forget jobs that have ended. Errors: ST_RESOURCE, ST_INPUT. */
 enum status queue_forget(struct queue *q, const int64_t *ids, int n, const struct report *r);
@@ -81,6 +93,8 @@ int queue_count(const struct queue *q);
 const struct Stats *queue_at(struct queue *q, int i);
 const struct Stats *queue_find(struct queue *q, int64_t id);
 
+int queue_unended(const struct queue *q, const char *group,
+                  bool *all_done);              /* jobs of that group */
 bool queue_busy(const struct queue *q);         /* any queued, starting, running, ending */
 int queue_processes(const struct queue *q);     /* jobs that have one, suspended ones too */
 int queue_active(const struct queue *q);        /* starting, running or ending */

@@ -130,7 +130,8 @@ static bool select_where(struct request *q, const char *group,
 static bool pass_event(const struct Stats *s, const void *data)
 {
 	const enum job_event *event = data;
-	return job_can(s->state, *event);
+	/* what somebody killed is tried again only by its name */
+	return job_can(s->state, *event) && !(*event == EV_RETRY && s->state == JOB_KILLED);
 }
 
 static bool pass_recent(const struct Stats *s, const void *data)
@@ -226,8 +227,12 @@ static void take_priority(struct request *q, const struct request_row *row, cons
 	else if (json_is_array(ids)
 	                 ? select_named(q, ids)
 	                 : select_where(q, json_text(body, "group", NULL), pass_unended, NULL)) {
+		/* the first of several that are put first is put there last */
 		for (int i = 0; i < q->n; i++)
-			queue_priority(queue_of(q), q->jobs[i], (int)priority, &r);
+			if (json_flag(body, "top", false))
+				queue_top(queue_of(q), q->jobs[q->n - 1 - i], &r);
+			else
+				queue_priority(queue_of(q), q->jobs[i], (int)priority, &r);
 	}
 }
 

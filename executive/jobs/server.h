@@ -5,6 +5,7 @@
 #include <uv.h>
 
 #include "crew.h"
+#include "hook.h"
 #include "local.h"
 #include "queue.h"
 #include "service.h"
@@ -18,6 +19,7 @@ struct server {
 	uv_loop_t loop;
 	const struct project *project; /* borrowed */
 	struct queue *queue;
+	struct hooks *hooks;
 	struct local *local;
 	struct slurm *slurm;
 	struct crew *crew;

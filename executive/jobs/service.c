@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -36,9 +37,40 @@ static double clock_date(void *data)
 	return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
+/* MiB free in the folder that holds the path, -1: not known. */
+static int64_t room_at(const char *path)
+{
+	struct statvfs v;
+	char *folder = path_folder(path);
+	int n = folder ? statvfs(folder, &v) : -1;
+	free(folder);
+	if (n)
+		return -1;
+	return (int64_t)((double)v.f_bavail * (double)v.f_frsize / (1 << 20));
+}
+
+/* Outputs go to one place, part files and logs to another. */
+static int64_t room_left(void *data, const struct Stats *job)
+{
+	const struct server *s = data;
+	int64_t there = job->output ? room_at(job->output) : -1, here = room_at(s->project->hidden);
+	return here < 0 || (there >= 0 && there < here) ? there : here;
+}
+
+static void hooks_told(struct server *s, const struct Stats *job)
+{
+	bool all_done;
+	if (!job_state_table[job->state].over || !hooks_wanted(s->hooks))
+		return;
+	hooks_run(s->hooks, "job", job, job_state_table[job->state].word);
+	if (job->group && !queue_unended(s->queue, job->group, &all_done))
+		hooks_run(s->hooks, "group", job, all_done ? "done" : "failed");
+}
+
 static void on_told(void *data, const struct Stats *job)
 {
 	struct server *s = data;
+	hooks_told(s, job);
 	for (struct session *c = s->sessions; c; c = c->next)
 		for (struct request *q = c->requests; q; q = q->next)
 			request_told(q, job);
@@ -67,6 +99,7 @@ static void close_handles(struct server *s)
 	uv_close((uv_handle_t *)&s->leave, NULL);
 	uv_close((uv_handle_t *)&s->interrupt, NULL);
 	uv_close((uv_handle_t *)&s->terminate, NULL);
+	hooks_close(s->hooks);
 	local_close(s->local);
 	slurm_close(s->slurm);
 }
@@ -170,6 +203,7 @@ static struct queue_limits limits_from(const struct settings *s)
 {
 	int processors = parallel_processors();
 	int jobs = (int)settings_number(s, SETTING_JOBS);
+	const char *resume = s->value[SETTING_RESUME];
 	struct queue_limits l = {
 		.job_threads = (int)settings_number(s, SETTING_THREADS),
 		.job_memory_mib = (int64_t)settings_number(s, SETTING_MEMORY),
@@ -177,6 +211,11 @@ static struct queue_limits limits_from(const struct settings *s)
 		.term_grace = settings_number(s, SETTING_TERM_GRACE),
 		.hello_grace = settings_number(s, SETTING_HELLO_GRACE),
 		.end_grace = settings_number(s, SETTING_END_GRACE),
+		.job_wall_s = settings_number(s, SETTING_WALL),
+		.disk_floor_mib = (int64_t)settings_number(s, SETTING_DISK_FLOOR),
+		.resume = !strcmp(resume, "ask")     ? RESUME_ASK
+		          : !strcmp(resume, "never") ? RESUME_NEVER
+		                                     : RESUME_AUTO,
 		.jobs_elsewhere = (int)settings_number(s, SETTING_SLURM_JOBS),
 	};
 	l.jobs = jobs ? jobs : processors > JOBS_LEAST ? processors : JOBS_LEAST;
@@ -240,6 +279,8 @@ static enum status server_open(struct server *s, const struct settings *settings
 		.clock = &s->clock,
 		.told = on_told,
 		.told_data = s,
+		.room = room_left,
+		.room_data = s,
 	};
 	char *path = path_join(s->project->hidden, "jobs.db");
 	enum status st = path ? ledger_open(&s->ledger, path, r) : ST_RESOURCE;
@@ -268,6 +309,8 @@ static enum status launchers_create(struct server *s, const struct settings *set
 {
 	enum status st = local_create(&s->local, &s->loop, s->project,
 	                              (int)settings_number(settings, SETTING_NICE), r);
+	if (st == ST_OK)
+		st = hooks_create(&s->hooks, &s->loop, settings->value[SETTING_HOOK]);
 	if (st == ST_OK)
 		st = slurm_create(&s->slurm, &s->loop, s->project, settings, r);
 	if (st != ST_OK)
@@ -333,6 +376,7 @@ enum status service_run(const struct project *p, const struct settings *settings
 		queue_destroy(s->queue);
 		crew_destroy(s->crew);
 		slurm_destroy(s->slurm);
+		hooks_destroy(s->hooks);
 		local_destroy(s->local);
 		ledger_close(&s->ledger);
 		close(s->lock);

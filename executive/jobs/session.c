@@ -68,7 +68,7 @@ void session_send_job(struct session *c, int64_t id, const struct Stats *s)
 	unsigned char header[MESSAGE_HEADER];
 	job_text(&t, id, s);
 	if (t.n > MESSAGE_TEXT_MAX) {
-		brief.n_inputs = brief.n_after = 0;
+		brief.n_inputs = brief.n_after = brief.n_after_any = 0;
 		brief.parameters = NULL;
 		job_text(&t, id, &brief);
 	}

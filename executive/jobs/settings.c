@@ -20,6 +20,8 @@ const struct setting_row settings_table[N_SETTINGS] = { SETTINGS_MAP(X) };
 /* What a word setting may be. */
 static const char *const settings_words[N_SETTINGS] = {
 	[SETTING_COLOR] = "auto, always or never",
+	[SETTING_RESUME] = "auto, ask or never",
+	[SETTING_BELL] = "on or off",
 	[SETTING_LAUNCHER] = "local or slurm",
 };
 

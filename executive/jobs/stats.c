@@ -60,6 +60,7 @@ void stats_finish(struct Stats *s)
 	json_decref(s->parameters);
 	free(s->output);
 	free(s->after);
+	free(s->after_any);
 	free(s->on);
 	free(s->partition);
 	free(s->account);
@@ -112,6 +113,8 @@ enum status stats_copy(struct Stats *out, const struct Stats *s)
 	out->n_inputs = out->inputs ? s->n_inputs : 0;
 	out->n_outputs = out->outputs ? s->n_outputs : 0;
 	out->n_after = out->after ? s->n_after : 0;
+	out->after_any = array(s->n_after_any, sizeof *out->after_any, &failed);
+	out->n_after_any = out->after_any ? s->n_after_any : 0;
 	for (int i = 0; i < out->n_inputs; i++) {
 		out->inputs[i].path = duplicate(s->inputs[i].path, &failed);
 		out->inputs[i].entity = duplicate(s->inputs[i].entity, &failed);
@@ -124,6 +127,9 @@ enum status stats_copy(struct Stats *out, const struct Stats *s)
 	}
 	if (out->after)
 		memcpy(out->after, s->after, (size_t)s->n_after * sizeof *out->after);
+	if (out->after_any)
+		memcpy(out->after_any, s->after_any,
+		       (size_t)s->n_after_any * sizeof *out->after_any);
 	if (failed || (s->parameters && !out->parameters)) {
 		stats_finish(out);
 		return ST_RESOURCE;
@@ -258,12 +264,12 @@ static void write_outputs(const struct writer *w, const struct Stats *s)
 	text_add(w->t, "]");
 }
 
-static void write_after(const struct writer *w, const struct Stats *s)
+static void write_ids(const struct writer *w, const char *key, const int64_t *ids, int n)
 {
-	if (!write_list(w, "after", s->n_after))
+	if (!write_list(w, key, n))
 		return;
-	for (int i = 0; i < s->n_after; i++)
-		text_addf(w->t, "%s%lld", i ? "," : "", (long long)s->after[i]);
+	for (int i = 0; i < n; i++)
+		text_addf(w->t, "%s%lld", i ? "," : "", (long long)ids[i]);
 	text_add(w->t, "]");
 }
 
@@ -298,7 +304,9 @@ static void write_all(const struct writer *w, const struct Stats *s)
 	write_integer(w, "done", s->done, s->total > 0);
 	write_integer(w, "total", s->total, s->total > 0);
 	write_text(w, "phase", s->phase);
-	write_after(w, s);
+	write_ids(w, "after", s->after, s->n_after);
+	write_ids(w, "after_any", s->after_any, s->n_after_any);
+	write_number(w, "wall_limit_s", s->wall_limit_s > 0 ? s->wall_limit_s : NAN);
 	write_value(w, "parameters", s->parameters);
 	write_text(w, "output", s->output);
 	write_integer(w, "threads", s->threads, s->threads > 0);
@@ -370,20 +378,29 @@ static enum status read_outputs(struct Stats *s, const json_t *a, bool *failed)
 	return ST_OK;
 }
 
+static enum status read_ids(int64_t **ids, int *n, const json_t *a, bool *failed)
+{
+	*ids = array((int)json_array_size(a), sizeof **ids, failed);
+	*n = *ids ? (int)json_array_size(a) : 0;
+	for (int i = 0; i < *n; i++) {
+		const json_t *id = json_array_get(a, (size_t)i);
+		if (!json_is_integer(id))
+			return ST_INPUT;
+		(*ids)[i] = json_integer_value(id);
+	}
+	return ST_OK;
+}
+
 static enum status read_lists(struct Stats *s, const json_t *o, bool *failed)
 {
 	enum status st = read_inputs(s, json_object_get(o, "inputs"), failed);
 	if (st == ST_OK)
 		st = read_outputs(s, json_object_get(o, "outputs"), failed);
-	const json_t *after = json_object_get(o, "after");
-	s->after = array((int)json_array_size(after), sizeof *s->after, failed);
-	s->n_after = s->after ? (int)json_array_size(after) : 0;
-	for (int i = 0; i < s->n_after && st == ST_OK; i++) {
-		const json_t *id = json_array_get(after, (size_t)i);
-		if (!json_is_integer(id))
-			st = ST_INPUT;
-		s->after[i] = json_integer_value(id);
-	}
+	if (st == ST_OK)
+		st = read_ids(&s->after, &s->n_after, json_object_get(o, "after"), failed);
+	if (st == ST_OK)
+		st = read_ids(&s->after_any, &s->n_after_any, json_object_get(o, "after_any"),
+		              failed);
 	return st;
 }
 
@@ -409,6 +426,7 @@ enum status stats_from_json(struct Stats *s, const json_t *o)
 	s->partition = duplicate(json_text(o, "partition", NULL), &failed);
 	s->account = duplicate(json_text(o, "account", NULL), &failed);
 	s->time = duplicate(json_text(o, "time", NULL), &failed);
+	s->wall_limit_s = json_number(o, "wall_limit_s", 0);
 	s->priority = (int)json_int(o, "priority", 0);
 	s->done = json_int(o, "done", 0);
 	s->total = json_int(o, "total", 0);

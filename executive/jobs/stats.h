@@ -67,6 +67,9 @@ struct Stats {
 	char *output;       /* basic name, absolute */
 	int64_t *after;     /* ids it waits for */
 	int n_after;
+	int64_t *after_any; /* ids whose end it waits for, whatever end that is */
+	int n_after_any;
+	double wall_limit_s; /* of one run, suspended time left out; 0: none */
 	int threads;
 	int64_t memory_mib; /* 0: no limit */
 	bool force;
@@ -84,7 +87,8 @@ enum status stats_copy(struct Stats *out, const struct Stats *s);
 
 /* The object that jobs --json shows (DESIGN: id worker state color fraction eta_s file_name
  * path_name pid host group reason wall_s suspended_s cpu_s peak_kib inputs outputs log), plus
- * on, shards, partition, account, time, priority, done, total, phase, after, parameters, output, threads, memory_mib, force, submitted,
+ * on, shards, partition, account, time, priority, done, total, phase, after, after_any,
+ * wall_limit_s, parameters, output, threads, memory_mib, force, submitted,
  * started, ended. New reference; NULL for want of memory. */
 json_t *stats_to_json(const struct Stats *s);
 

@@ -110,9 +110,9 @@ void queue_turn(struct queue *q)
 
 double queue_deadline(const struct queue *q)
 {
-	double first = q->fault ? q->retry_at : q->sync_at;
+	double first = fmin(q->fault ? q->retry_at : q->sync_at, q->look_at);
 	for (int i = 0; i < q->n_active; i++)
-		first = fmin(first, q->active[i]->deadline);
+		first = fmin(first, fmin(q->active[i]->deadline, job_wall_end(q->active[i])));
 	for (int i = 0; i < q->n_changed; i++)
 		if (q->changed[i]->news && !q->changed[i]->dirty)
 			first = fmin(first, q->changed[i]->told_at + tell_s);
@@ -126,11 +126,25 @@ static void finish_half(struct job *job)
 	job_step(job, EV_GONE, NULL);
 }
 
+/* Its time is up: asked to stop at a unit, then made to. */
+static void out_of_time(struct job *job)
+{
+	job_fault(job,
+	          "over its limit of %g s; 'batten retry %lld' goes on from its part file for as "
+	          "long again",
+	          job->stats.wall_limit_s, (long long)job->stats.id);
+	job_end(job, CAUSE_FAULT, STEP_CANCEL);
+}
+
 void queue_tick(struct queue *q)
 {
 	double now = queue_now(q);
+	if (now >= q->look_at)
+		q->look_at = INFINITY;
 	for (int i = q->n_active - 1; i >= 0; i--) {
 		struct job *job = q->active[i];
+		if (now >= job_wall_end(job) && !job->finished && !job->fault)
+			out_of_time(job);
 		if (now < job->deadline)
 			continue;
 		job->deadline = INFINITY;

@@ -12,7 +12,8 @@ BIG = 1 << 20
 
 
 def kill_service(t):
-    pid, workers = t.service(), t.workers()
+    pid = t.service()
+    workers = t.workers(pid) if pid else []
     if pid and place.signal_quietly(pid, signal.SIGKILL):
         t.count["kills of the service"] += 1
         end.until(lambda: not any(t.is_ours(p) for p in [pid] + workers), "the workers end with the service")

@@ -90,7 +90,7 @@ class Trial:
         self.environment = dict(
             os.environ, XDG_RUNTIME_DIR=self.path("run"), XDG_CONFIG_HOME=self.path("config"), NO_COLOR="1",
             BATTEN_JOBS="3", BATTEN_CANCEL_GRACE="0.3", BATTEN_TERM_GRACE="0.3", BATTEN_END_GRACE="1",
-            BATTEN_HELLO_GRACE="5", BATTEN_FAULT_CLOCK=self.clock)
+            BATTEN_HELLO_GRACE="5", BATTEN_DISK_FLOOR=random.choice(("0", "8")), BATTEN_FAULT_CLOCK=self.clock)
         if clock:
             self.environment["LD_PRELOAD"] = clock
             self.environment["ASAN_OPTIONS"] = os.environ.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0"
@@ -179,7 +179,8 @@ class Trial:
         except OSError:
             return False
 
-    def workers(self):
+    def workers(self, service=None):
+        """All of the project, or those that one service started."""
         found = []
         for name in os.listdir("/proc"):
             if not name.isdigit() or not self.is_ours(int(name)):
@@ -189,7 +190,7 @@ class Trial:
                     line = f.read()
             except OSError:
                 continue
-            if "/workers/batten-" in line.split("\0")[0]:
+            if "/workers/batten-" in line.split("\0")[0] and service in (None, parent(name)):
                 found.append(int(name))
         return found
 
@@ -239,6 +240,7 @@ class Trial:
         raise AssertionError([brief(job) for job in jobs.values() if job["state"] != "done"])
 
     def finish(self):
+        self.ask("prune")  # what could not be taken away while folders were read-only
         status, text = self.ask("shutdown")
         assert status == 0, text
         end.until(lambda: not self.workers(), "the workers end with the service")
@@ -256,6 +258,14 @@ class Trial:
         if self.mounted:
             subprocess.run(["umount", "-l", self.root], capture_output=True)
         shutil.rmtree(self.root, ignore_errors=True)
+
+
+def parent(pid):
+    try:
+        with open(f"/proc/{pid}/stat") as f:
+            return int(f.read().rsplit(")", 1)[1].split()[1])
+    except OSError:
+        return None
 
 
 def limit_files(pid, bytes_):
