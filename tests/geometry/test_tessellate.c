@@ -310,6 +310,25 @@ static void trims_cross_sharp_edges(void **state)
 	curve_finish(&c);
 }
 
+/* Two squares in one surface that do not meet: there is an end to looking for the way between. */
+static void a_broken_surface_ends(void **state)
+{
+	(void)state;
+	struct surface s;
+	struct mesh m;
+	assert_int_equal(surface_init(&s, (const int[2]){ 2, 2 }, (const int[2]){ 4, 2 }), ST_OK);
+	memcpy(s.knots[0], (const double[6]){ 0, 0, 1, 1, 2, 2 }, 6 * sizeof(double));
+	memcpy(s.knots[1], (const double[4]){ 0, 0, 1, 1 }, 4 * sizeof(double));
+	for (int i = 0; i < 4; i++)
+		for (int j = 0; j < 2; j++)
+			surface_set_point(&s, i, j, vec3(i, j, i / 2), 1);
+	assert_int_equal(surface_check(&s, "broken", NULL), ST_OK);
+	make_mesh(&m, &s, 1, 1e-3, 10);
+	assert_true(m.n_triangles < 2000000);
+	mesh_finish(&m);
+	surface_finish(&s);
+}
+
 static void same_input_same_bytes(void **state)
 {
 	(void)state;
@@ -369,8 +388,8 @@ int main(void)
 		cmocka_unit_test(a_torus_is_closed),       cmocka_unit_test(the_angle_holds),
 		cmocka_unit_test(a_cone_has_a_tip),        cmocka_unit_test(parts_join),
 		cmocka_unit_test(sharp_edges_stay),        cmocka_unit_test(trims_are_kept),
-		cmocka_unit_test(trims_cross_sharp_edges), cmocka_unit_test(same_input_same_bytes),
-		cmocka_unit_test(what_is_wrong_is_said),
+		cmocka_unit_test(trims_cross_sharp_edges), cmocka_unit_test(a_broken_surface_ends),
+		cmocka_unit_test(same_input_same_bytes),   cmocka_unit_test(what_is_wrong_is_said),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

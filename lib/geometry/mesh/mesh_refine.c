@@ -3,7 +3,9 @@
 
 #include "mesh_face.h"
 
-enum { DEPTH_MAX = 20, TRIANGLES_MAX = 100 * 1000 * 1000 };
+/* Shorter edges, in the net's coordinates, are left: where a surface breaks no triangle is ever near
+ * enough. 2^15 of them make a whole side. */
+enum { SHORTEST = 1 << 12, DEPTH_MAX = 20, TRIANGLES_MAX = 100 * 1000 * 1000 };
 
 /* A vertex at whole coordinates; its parameters follow from them, or are given. */
 static enum status add_vertex(struct mesh_face *f, const int32_t at[2], const double uv[2],
@@ -38,7 +40,7 @@ static enum status crease_between(struct mesh_face *f, int d, double c, int a, i
 		near[d] = k ? nextafter(c, INFINITY) : nextafter(c, -INFINITY);
 		patch[k] = mesh_patch_of(f->creases, near);
 	}
-	const bool room = abs(f->net.at[a][1 - d] - f->net.at[b][1 - d]) > 16;
+	const bool room = abs(f->net.at[a][1 - d] - f->net.at[b][1 - d]) > SHORTEST;
 	if (!room || depth >= DEPTH_MAX ||
 	    !(mesh_face_coarse(f, a, b, patch[0]) || mesh_face_coarse(f, a, b, patch[1])))
 		return net_fix(&f->net, a, b, NET_FIXED);
@@ -190,7 +192,7 @@ static enum status refine_triangle(struct mesh_face *f, int t, bool *parted)
 		bad[i] = false;
 		const int32_t *a = f->net.at[x.v[turn[i]]], *b = f->net.at[x.v[back[i]]];
 		const int32_t at[2] = { (a[0] + b[0]) / 2, (a[1] + b[1]) / 2 };
-		enum status st = length[i] > 16 ? insert(f, t, i, at, parted) : ST_OK;
+		enum status st = length[i] > SHORTEST ? insert(f, t, i, at, parted) : ST_OK;
 		if (st != ST_OK || *parted)
 			return st;
 	}
@@ -199,7 +201,8 @@ static enum status refine_triangle(struct mesh_face *f, int t, bool *parted)
 		at[d] = (int32_t)(((int64_t)f->net.at[x.v[0]][d] + f->net.at[x.v[1]][d] +
 		                   f->net.at[x.v[2]][d]) /
 		                  3);
-	return any ? ST_OK : insert(f, t, -1, at, parted);
+	const double most = fmax(length[0], fmax(length[1], length[2]));
+	return any || most > 0 ? ST_OK : insert(f, t, -1, at, parted);
 }
 
 /* Twice the area over the square of the longest edge; 0 for a triangle that is a line. */
