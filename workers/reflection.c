@@ -34,16 +34,16 @@ static const struct param reflection_params[] = {
 	{ .name = "point",
 	  .type = PARAM_VECTOR,
 	  .unit = "file",
-	  .help = "a point of the middle light line (the length of the surfaces' box above its "
-	          "centre where not given)" },
+	  .help = "a point of the middle light line (from the surfaces' centre towards the eye, as "
+	          "far as they are long, where not given)" },
 	{ .name = "direction",
 	  .type = PARAM_VECTOR,
-	  .def = "1,0,0",
-	  .help = "direction of the light lines, any length" },
+	  .help = "direction of the light lines, any length (level, square to the way to the eye, "
+	          "where not given)" },
 	{ .name = "across",
 	  .type = PARAM_VECTOR,
-	  .help = "direction from one light line to the next, any length (across the lines, "
-	          "square to the way to the surfaces, where not given)" },
+	  .help = "direction from one light line to the next, any length (square to the lines and "
+	          "to the way to the surfaces, where not given)" },
 	{ .name = "count",
 	  .type = PARAM_INTEGER,
 	  .def = "11",
@@ -55,8 +55,8 @@ static const struct param reflection_params[] = {
 	  .min = 0,
 	  .max = INFINITY,
 	  .unit = "file",
-	  .help = "distance from one light line to the next (a tenth of the box's diagonal where "
-	          "not given)" },
+	  .help = "distance from one light line to the next (an eighth of the diagonal of the "
+	          "surfaces' box where not given)" },
 	PARAM_ROW_LEVEL_TOLERANCE,
 	PARAM_ROW_SVG,
 	{ .name = NULL },
@@ -132,17 +132,21 @@ static enum status eye_read(const struct work *w, const struct state *s, struct 
 	return ST_OK;
 }
 
-/* The middle line, and the way from one to the next. */
+/* The middle line, and the way from one to the next; f->eye is known. */
 static enum status lines_read(const struct work *w, const struct state *s, struct level_field *f,
                               struct vec3 *step)
 {
 	const struct vec3 centre = box_center(&s->box), size = vec3_sub(s->box.hi, s->box.lo);
+	const struct vec3 ahead = vec3_unit(vec3_sub(f->eye, centre));
 	const double spacing =
-	        work_has(w, "spacing") ? work_real(w, "spacing") : box_diagonal(&s->box) / 10;
-	f->direction = work_vector(w, "direction");
+	        work_has(w, "spacing") ? work_real(w, "spacing") : box_diagonal(&s->box) / 8;
+	const bool above = hypot(ahead.x, ahead.y) < 1e-6;
+	f->direction = work_has(w, "direction")
+	                       ? work_vector(w, "direction")
+	                       : vec3_unit(above ? vec3(1, 0, 0) : vec3(-ahead.y, ahead.x, 0));
 	f->point = work_has(w, "point")
 	                   ? work_vector(w, "point")
-	                   : vec3_along(centre, fmax(size.x, fmax(size.y, size.z)), vec3(0, 0, 1));
+	                   : vec3_along(centre, fmax(size.x, fmax(size.y, size.z)), ahead);
 	if (!(vec3_length(f->direction) > 0))
 		return report_error(&w->report, ST_PARAMETER,
 		                    "--direction: expected a direction, found no length");
@@ -169,11 +173,9 @@ static enum status levels_begin(struct work *w, struct state *s)
 	};
 	struct level_field first = { .kind = levels[s->kind], .direction = { 0, 0, 1 } };
 	struct vec3 step = { 0, 0, 0 };
-	enum status st = ST_OK;
-	if (s->kind != KIND_SILHOUETTE)
+	enum status st = eye_read(w, s, &first);
+	if (st == ST_OK && s->kind != KIND_SILHOUETTE)
 		st = lines_read(w, s, &first, &step);
-	if (st == ST_OK && s->kind != KIND_HIGHLIGHT)
-		st = eye_read(w, s, &first);
 	if (st != ST_OK)
 		return st;
 	struct level_field *fields = calloc((size_t)s->n, sizeof *fields);

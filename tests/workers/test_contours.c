@@ -1,0 +1,383 @@
+/* test_contours.c - the contours worker against circles, an annulus, and Wigley's hull by formula. */
+#include "drive.h"
+
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base.h"
+#include "construct.h"
+#include "json.h"
+
+/* Wigley's hull: y = (B/2) (1 - (2x/L)^2) (1 - (z/T)^2), z from -T to 0. */
+static const double length = 100, beam = 10, draught = 6.25;
+
+static char *contours;
+
+static void model_put(struct model *m, struct surface *s)
+{
+	struct entity e = { .kind = ENTITY_SURFACE, .surface = -1, .geometry = *s };
+	assert_int_equal(model_add(m, &e), ST_OK);
+}
+
+static void write_model(const char *path, struct surface *s, int n)
+{
+	struct model m;
+	model_init(&m);
+	for (int i = 0; i < n; i++)
+		model_put(&m, &s[i]);
+	model_number(&m);
+	assert_int_equal(base_write(&m, path, NULL), ST_OK);
+	model_finish(&m);
+}
+
+/* One side of the hull, exact as a biquadratic patch. */
+static struct surface wigley(double side)
+{
+	static const double x[3] = { 0.5, 0, -0.5 }, fx[3] = { 0, 2, 0 };
+	static const double z[3] = { -1, -0.5, 0 }, fz[3] = { 0, 1, 1 };
+	struct surface s;
+	assert_int_equal(surface_init(&s, (int[2]){ 3, 3 }, (int[2]){ 3, 3 }), ST_OK);
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < 3; j++)
+			surface_set_point(&s, i, j,
+			                  vec3(length * x[i], side * beam / 2 * fx[i] * fz[j],
+			                       draught * z[j]),
+			                  1);
+	for (int d = 0; d < 2; d++) {
+		for (int i = 3; i < 6; i++)
+			s.knots[d][i] = 1;
+		s.domain[d][1] = 1;
+	}
+	return s;
+}
+
+static int enter(void **state)
+{
+	static struct place place;
+	*state = &place;
+	place_enter(&place);
+	struct surface s[2];
+	assert_int_equal(make_sphere(&s[0], vec3(0, 0, 0), 2), ST_OK);
+	write_model("sphere.base", s, 1);
+	assert_int_equal(make_torus(&s[0], vec3(1, 2, 3), 20, 5), ST_OK);
+	write_model("torus.base", s, 1);
+	s[0] = wigley(1);
+	s[1] = wigley(-1);
+	write_model("wigley.base", s, 2);
+	s[0] = wigley(-1);
+	write_model("half.base", s, 1);
+	const struct vec3 point[4] = { { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } };
+	assert_int_equal(make_bilinear(&s[0], point), ST_OK);
+	write_model("point.base", s, 1);
+	return 0;
+}
+
+static int leave(void **state)
+{
+	place_leave(*state);
+	return 0;
+}
+
+#define RUN(...)                                                                                   \
+	do {                                                                                       \
+		struct ran ran_ = run_hand(contours, __VA_ARGS__, NULL);                           \
+		if (ran_.exit_status)                                                              \
+			fail_msg("exit status %d: %s", ran_.exit_status, ran_.err);                \
+		ran_finish(&ran_);                                                                 \
+	} while (0)
+
+static void near(double a, double b, double tolerance)
+{
+	if (!(fabs(a - b) <= tolerance))
+		fail_msg("%.17g is not %.17g within %g", a, b, tolerance);
+}
+
+/* A result read back: its model, its figures, the row of each plane. */
+struct result {
+	struct model m;
+	json_t *figures, *levels;
+};
+
+static struct result result_read(const char *path)
+{
+	struct result r;
+	assert_int_equal(model_read(&r.m, path, NULL, NULL), ST_OK);
+	const char *text = model_get_attribute(&r.m, "figures");
+	assert_non_null(text);
+	assert_int_equal(json_parse_object(text, strlen(text), "figures", &r.figures, NULL), ST_OK);
+	r.levels = json_object_get(r.figures, "levels");
+	assert_non_null(r.levels);
+	return r;
+}
+
+static void result_finish(struct result *r)
+{
+	json_decref(r->figures);
+	model_finish(&r->m);
+}
+
+static json_t *row(const struct result *r, int i, const char *kind, double value, int branches,
+                   int closed)
+{
+	json_t *o = json_array_get(r->levels, (size_t)i);
+	assert_non_null(o);
+	assert_string_equal(json_text(o, "kind", ""), kind);
+	near(json_number(o, "value", NAN), value, 1e-12 * length);
+	assert_int_equal(json_int(o, "branches", -1), branches);
+	assert_int_equal(json_int(o, "closed", -1), closed);
+	assert_int_equal(json_int(o, "undecided", -1), 0);
+	return o;
+}
+
+static void expect_section(const json_t *o, double area, struct vec3 centroid, double tolerance)
+{
+	const json_t *c = json_object_get(o, "centroid");
+	near(json_number(o, "area", NAN), area, tolerance);
+	assert_int_equal(json_array_size(c), 3);
+	near(json_number_value(json_array_get(c, 0)), centroid.x, tolerance);
+	near(json_number_value(json_array_get(c, 1)), centroid.y, tolerance);
+	near(json_number_value(json_array_get(c, 2)), centroid.z, tolerance);
+}
+
+static void test_circles(void **state)
+{
+	(void)state;
+	RUN("sphere.base", "--plane", "0,0,5", "--from", "-1.5", "--spacing", "0.5", "--count", "7",
+	    "--tolerance", "1e-6");
+	struct result r = result_read("sphere.contour");
+	assert_int_equal(json_array_size(r.levels), 7);
+	for (int i = 0; i < 7; i++) {
+		const double z = -1.5 + 0.5 * i, radius = sqrt(4 - z * z);
+		json_t *o = row(&r, i, "plane", z, 1, 1);
+		expect_section(o, M_PI * radius * radius, vec3(0, 0, z), 1e-5);
+		near(json_number(o, "girth", NAN), 2 * M_PI * radius, 1e-5);
+		near(json_number(o, "length", NAN), 2 * M_PI * radius, 1e-5);
+	}
+	assert_int_equal(json_int(r.figures, "branches", -1), 7);
+	assert_true(json_number(r.figures, "max_error", NAN) <= 1e-6);
+	assert_int_equal(r.m.n, 8);
+	for (int i = 1; i < r.m.n; i++) {
+		const struct entity *e = &r.m.entities[i];
+		assert_string_equal(entity_get_attribute(e, "kind"), "plane");
+		assert_string_equal(entity_get_attribute(e, "curve"), "1");
+		const double z = strtod(entity_get_attribute(e, "value"), NULL);
+		for (int k = 0; k <= 200; k++) {
+			struct vec3 p = curve_point(&e->space, e->space.domain[1] * k / 200);
+			near(p.z, z, 1e-6);
+			near(vec3_length(p), 2, 1e-6);
+		}
+	}
+	result_finish(&r);
+}
+
+/* A plane askew through the centre: a great circle. The way to give one plane by a point. */
+static void test_askew(void **state)
+{
+	(void)state;
+	RUN("sphere.base", "--plane", "1,2,2", "--point", "0.3,0.3,0.3", "--tolerance", "1e-6");
+	struct result r = result_read("sphere.contour");
+	const double d = 0.5, radius = sqrt(4 - d * d);
+	json_t *o = row(&r, 0, "plane", d, 1, 1);
+	expect_section(o, M_PI * radius * radius, vec3(d / 3, 2 * d / 3, 2 * d / 3), 1e-5);
+	result_finish(&r);
+}
+
+/* Through the torus: an annulus is a circle less its hole; two circles are their sum. */
+static void test_holes(void **state)
+{
+	(void)state;
+	RUN("torus.base", "--plane", "0,0,1", "--from", "5", "--tolerance", "1e-5");
+	struct result r = result_read("torus.contour");
+	json_t *o = row(&r, 0, "plane", 5, 2, 2);
+	const double outer = 20 + sqrt(21), inner = 20 - sqrt(21);
+	expect_section(o, M_PI * (outer * outer - inner * inner), vec3(1, 2, 5), 1e-2);
+	near(json_number(o, "girth", NAN), 2 * M_PI * 40, 1e-3);
+	result_finish(&r);
+	RUN("torus.base", "--plane", "1,0,0", "--from", "1", "--tolerance", "1e-5");
+	r = result_read("torus.contour");
+	expect_section(row(&r, 0, "plane", 1, 2, 2), 2 * M_PI * 25, vec3(1, 2, 3), 1e-3);
+	result_finish(&r);
+}
+
+static void test_cylinders(void **state)
+{
+	(void)state;
+	RUN("sphere.base", "--cylinder", "0,0,1", "--from", "0.5", "--to", "1.5", "--count", "3",
+	    "--tolerance", "1e-6");
+	struct result r = result_read("sphere.contour");
+	for (int i = 0; i < 3; i++) {
+		const double radius = 0.5 + 0.5 * i;
+		json_t *o = row(&r, i, "cylinder", radius, 2, 2);
+		near(json_number(o, "length", NAN), 4 * M_PI * radius, 1e-5);
+		assert_true(json_is_null(json_object_get(o, "area")));
+	}
+	result_finish(&r);
+	/* off the axis, both in one: points lie on both surfaces */
+	RUN("sphere.base", "--cylinder", "0,0,1", "--point", "0.4,0.3,9", "--from", "0.8",
+	    "--tolerance", "1e-6");
+	r = result_read("sphere.contour");
+	row(&r, 0, "cylinder", 0.8, 2, 2);
+	for (int i = 1; i < r.m.n; i++)
+		for (int k = 0; k <= 200; k++) {
+			const struct curve *c = &r.m.entities[i].space;
+			struct vec3 p = curve_point(c, c->domain[1] * k / 200);
+			near(hypot(p.x - 0.4, p.y - 0.3), 0.8, 2e-6);
+			near(vec3_length(p), 2, 1e-6);
+		}
+	result_finish(&r);
+}
+
+/* Areas of stations and waterlines, whole hull and half hull: the same. */
+static void test_wigley(void **state)
+{
+	(void)state;
+	static const char *const files[] = { "wigley", "half" };
+	for (int f = 0; f < 2; f++) {
+		char input[32], output[32];
+		snprintf(input, sizeof input, "%s.base", files[f]);
+		snprintf(output, sizeof output, "%s.contour", files[f]);
+		RUN(input, "--stations", "9", "--waterlines", "-5:-1:5", "--buttocks", "1",
+		    "--tolerance", "1e-6");
+		struct result r = result_read(output);
+		assert_int_equal(json_array_size(r.levels), 15);
+		for (int i = 0; i < 9; i++) {
+			const double x = -40 + 10 * i, part = 1 - x * x / 2500;
+			json_t *o = row(&r, i, "station", x, 1, 0);
+			assert_int_equal(json_int(o, "number", -1), i + 1);
+			expect_section(o, beam * part * draught * 2 / 3,
+			               vec3(x, 0, -3 * draught / 8), 1e-4);
+		}
+		for (int i = 0; i < 5; i++) {
+			const double z = -5 + i, part = 1 - z * z / (draught * draught);
+			/* the halves meet at stem and stern; one half alone has its ends there */
+			json_t *o = row(&r, 9 + i, "waterline", z, 1, f == 0);
+			assert_int_equal(json_int(o, "number", -1), i);
+			expect_section(o, beam * part * length * 2 / 3, vec3(0, 0, z), 1e-3);
+		}
+		row(&r, 14, "buttock", f == 0 ? beam / 4 : -beam / 4, 1, 0);
+		result_finish(&r);
+	}
+}
+
+/* Below a draught: F(z) = z - z^3 / 3 T^2 from -T to there. */
+static void test_draught(void **state)
+{
+	(void)state;
+	RUN("half.base", "--stations", "-30:30:3", "--draught", "-2", "--tolerance", "1e-6",
+	    "--csv", "--svg");
+	struct result r = result_read("half.contour");
+	const double t = draught, d = -2;
+	const double area = d - d * d * d / (3 * t * t) + 2 * t / 3;
+	const double moment = d * d / 2 - d * d * d * d / (4 * t * t) - t * t / 4;
+	for (int i = 0; i < 3; i++) {
+		const double x = -30 + 30 * i, breadth = beam * (1 - x * x / 2500);
+		expect_section(row(&r, i, "station", x, 1, 0), breadth * area,
+		               vec3(x, 0, moment / area), 1e-4);
+	}
+	result_finish(&r);
+	assert_int_equal(count_lines("half.sections.csv"), 4);
+	size_t n;
+	char *csv = slurp("half.sections.csv", &n), *svg = slurp("half.contour.svg", &n);
+	assert_int_equal(strncmp(csv, "kind,number,value,branches,closed,length,area,", 46), 0);
+	assert_non_null(strstr(csv, "\nstation,1,0,1,0,"));
+	static const char *const words[] = { "Body plan", "Profile", "Half-breadth", "DWL" };
+	for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+		assert_non_null(strstr(svg, words[i]));
+	free(csv);
+	free(svg);
+}
+
+static void test_same_bytes(void **state)
+{
+	(void)state;
+	RUN("wigley.base", "--stations", "20", "--waterlines", "9", "--buttocks", "4", "--svg",
+	    "--csv", "--threads", "1", "-o", "one");
+	RUN("wigley.base", "--stations", "20", "--waterlines", "9", "--buttocks", "4", "--svg",
+	    "--csv", "--threads", "4", "-o", "four");
+	assert_same_file("one.contour", "four.contour");
+	assert_same_file("one.contour.svg", "four.contour.svg");
+	assert_same_file("one.sections.csv", "four.sections.csv");
+}
+
+/* Killed after its first unit, started again: the same bytes as at one go. */
+static void test_killed(void **state)
+{
+	(void)state;
+	static const char parameters[] = "\"plane\":\"1,2,3\",\"count\":\"400\"";
+	struct peer p;
+	write_job("1.json", "contours", "torus.base", "whole", "1.part", parameters, "");
+	write_job("2.json", "contours", "torus.base", "twice", "2.part", parameters, "");
+	struct ran r = run_hand(contours, "--job", "1.json", NULL);
+	assert_int_equal(r.exit_status, 0);
+	ran_finish(&r);
+	peer_start(&p, contours, NULL);
+	peer_send(&p, MESSAGE_START, "job", "2.json");
+	assert_true(peer_until(&p, MESSAGE_UNIT));
+	kill(p.pid, SIGKILL);
+	peer_drain(&p);
+	assert_int_equal(peer_end(&p), 128 + SIGKILL);
+	assert_false(there("twice.contour"));
+	peer_start(&p, contours, NULL);
+	peer_send(&p, MESSAGE_START, "job", "2.json");
+	assert_true(peer_until(&p, MESSAGE_DONE));
+	assert_int_equal(peer_end(&p), 0);
+	assert_same_file("whole.contour", "twice.contour");
+}
+
+static void test_wrong(void **state)
+{
+	static const struct {
+		const char *input, *arguments[6];
+		int exit_status;
+		const char *says;
+	} wrong[] = {
+		{ "sphere.base", { "--plane", "0,0,0" }, 2, "direction" },
+		{ "sphere.base", { "--plane", "1,0,0", "--cylinder", "1,0,0" }, 2, "one of them" },
+		{ "sphere.base", { "--stations", "0" }, 2, "FROM:TO:COUNT" },
+		{ "sphere.base", { "--stations", "3x" }, 2, "FROM:TO:COUNT" },
+		{ "sphere.base", { "--stations", "1:2" }, 2, "FROM:TO:COUNT" },
+		{ "sphere.base", { "--waterlines", "2:1:3" }, 2, "exchange" },
+		{ "sphere.base", { "--buttocks", "1001" }, 2, "1000" },
+		{ "sphere.base", { "--stations", "600", "--buttocks", "600" }, 2, "1200" },
+		{ "sphere.base", { "--stations", "3", "--from", "1" }, 2, "--from" },
+		{ "sphere.base", { "--from", "1", "--point", "0,0,1" }, 2, "twice" },
+		{ "sphere.base", { "--to", "1" }, 2, "--from" },
+		{ "sphere.base", { "--from", "1", "--to", "0" }, 2, "above" },
+		{ "sphere.base", { "--from", "0", "--to", "1" }, 2, "--spacing" },
+		{ "sphere.base", { "--from", "0", "--count", "2" }, 2, "--spacing" },
+		{ "sphere.base", { "--from", "0", "--spacing", "0" }, 2, "spacing" },
+		{ "sphere.base", { "--cylinder", "0,0,1", "--from", "0" }, 2, "radius" },
+		{ "sphere.base", { "--tolerance", "0" }, 2, "tolerance" },
+		{ "point.base", { "--stations", "3" }, 1, "point" },
+	};
+	(void)state;
+	for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+		const char *const *a = wrong[i].arguments;
+		struct ran r = run_hand(contours, wrong[i].input, "-o", "wrong", a[0], a[1], a[2],
+		                        a[3], a[4], a[5], NULL);
+		if (r.exit_status != wrong[i].exit_status || !strstr(r.err, wrong[i].says))
+			fail_msg("case %zu: exit status %d: %s", i, r.exit_status, r.err);
+		assert_false(there("wrong.contour"));
+		ran_finish(&r);
+	}
+}
+
+int main(int argc, char **argv)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_circles),    cmocka_unit_test(test_askew),
+		cmocka_unit_test(test_holes),      cmocka_unit_test(test_cylinders),
+		cmocka_unit_test(test_wigley),     cmocka_unit_test(test_draught),
+		cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_killed),
+		cmocka_unit_test(test_wrong),
+	};
+	if (argc < 2)
+		return 2;
+	contours = realpath(argv[1], NULL); /* tests work in another folder */
+	int rc = cmocka_run_group_tests(tests, enter, leave);
+	free(contours);
+	return rc;
+}
