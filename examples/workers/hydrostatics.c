@@ -42,7 +42,7 @@ static const struct param hydrostatics_params[] = {
 enum { VOLUME, MOMENT_X, MOMENT_Y, MOMENT_Z, WATERPLANE, WETTED, N_SUMS };
 
 struct sums {
-	double value[N_SUMS], error[N_SUMS]; /* error: what the last quartering changed */
+	double value[N_SUMS], error[N_SUMS];
 };
 
 /* A unit is one patch between knots of one surface. */
@@ -123,9 +123,10 @@ static const double nodes[4] = { 0.069431844202973712, 0.33000947820757187, 0.66
 static const double weights[4] = { 0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
 	                           0.17392742256872693 };
 
-/* Add the integrals over a piece where it is wet, by 16 points. Returns how many of them are. */
+/* Add the integrals over a piece where it is wet, by 16 points, and to `most` those of all points
+ * without sign. Returns how many points are wet. */
 static int piece_add(const struct state *s, const struct surface *f, const struct patch *p,
-                     double sums[N_SUMS])
+                     double sums[N_SUMS], double most[N_SUMS])
 {
 	double du = p->u[1] - p->u[0], dv = p->v[1] - p->v[0];
 	int wet = 0;
@@ -136,40 +137,40 @@ static int piece_add(const struct state *s, const struct surface *f, const struc
 		                 &xu, &xv);
 		struct vec3 n = vec3_cross(xu, xv);
 		double z = x.z - s->draft;
-		if (z >= 0)
-			continue;
-		wet++;
-		sums[VOLUME] += a * z * n.z;
-		sums[MOMENT_X] += a * x.x * z * n.z;
-		sums[MOMENT_Y] += a * x.y * z * n.z;
-		sums[MOMENT_Z] += a * z * z / 2 * n.z;
-		sums[WATERPLANE] -= a * n.z;
-		sums[WETTED] += a * vec3_length(n);
+		const double here[N_SUMS] = {
+			[VOLUME] = z * n.z,         [MOMENT_X] = x.x * z * n.z,
+			[MOMENT_Y] = x.y * z * n.z, [MOMENT_Z] = z * z / 2 * n.z,
+			[WATERPLANE] = -n.z,        [WETTED] = vec3_length(n),
+		};
+		for (int k = 0; k < N_SUMS; k++) {
+			sums[k] += z < 0 ? a * here[k] : 0;
+			most[k] += a * fabs(here[k]);
+		}
+		wet += z < 0;
 	}
 	return wet;
 }
 
-/* Quarter a piece until the water does not cut it; what quartering changes is the error. */
+/* Quarter a piece until the water does not cut it. The error is what the last quartering changes; of
+ * a piece that is still cut, all of it. */
 static void piece_sum(const struct state *s, const struct surface *f, const struct patch *p,
                       int depth, struct sums *out)
 {
 	double u = (p->u[0] + p->u[1]) / 2, v = (p->v[0] + p->v[1]) / 2;
-	double whole[N_SUMS] = { 0 }, parts[N_SUMS] = { 0 };
+	double whole[N_SUMS] = { 0 }, parts[N_SUMS] = { 0 }, most[N_SUMS] = { 0 };
 	struct patch quarter[4];
-	int wet = piece_add(s, f, p, whole);
+	int wet = piece_add(s, f, p, whole, most);
 	for (int i = 0; i < 4; i++) {
 		quarter[i] = (struct patch){ .u = { i & 1 ? u : p->u[0], i & 1 ? p->u[1] : u },
 			                     .v = { i & 2 ? v : p->v[0], i & 2 ? p->v[1] : v } };
-		wet += piece_add(s, f, &quarter[i], parts);
+		wet += piece_add(s, f, &quarter[i], parts, most);
 	}
-	if (wet && wet < 5 * 16 && depth) {
-		for (int i = 0; i < 4; i++)
-			piece_sum(s, f, &quarter[i], depth - 1, out);
-		return;
-	}
-	for (int k = 0; k < N_SUMS; k++) {
+	bool cut = wet && wet < 5 * 16;
+	for (int i = 0; i < 4 && cut && depth; i++)
+		piece_sum(s, f, &quarter[i], depth - 1, out);
+	for (int k = 0; k < N_SUMS && !(cut && depth); k++) {
 		out->value[k] += parts[k];
-		out->error[k] += fabs(parts[k] - whole[k]);
+		out->error[k] += cut ? most[k] / 2 : fabs(parts[k] - whole[k]);
 	}
 }
 

@@ -13,6 +13,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "description.h"
 #include "json.h"
 #include "text.h"
 
@@ -94,28 +95,6 @@ static void asked_read(struct asked *a)
 	a->fd = -1;
 }
 
-static bool row_is_whole(const json_t *row)
-{
-	return json_text(row, "name", NULL) && json_text(row, "type", NULL);
-}
-
-/* NULL, or what is wrong with it; fresh. */
-static char *description_fault(const json_t *o, const char *name)
-{
-	const char *own = json_text(o, "name", NULL);
-	if (!own || strcmp(own, name))
-		return text_print("--describe says it is '%s'", own ? own : "nothing");
-	if (!json_is_integer(json_object_get(o, "version")))
-		return strdup("--describe gives no version");
-	const json_t *parameters = json_object_get(o, "parameters");
-	if (!json_is_array(parameters))
-		return strdup("--describe gives no list of parameters");
-	for (size_t i = 0; i < json_array_size(parameters); i++)
-		if (!row_is_whole(json_array_get(parameters, i)))
-			return text_print("--describe: parameter %zu has no name or type", i + 1);
-	return NULL;
-}
-
 static void asked_check(struct asked *a)
 {
 	struct report_store store;
@@ -126,7 +105,7 @@ static void asked_check(struct asked *a)
 		asked_broken(a, strdup(store.error));
 		return;
 	}
-	char *fault = description_fault(a->worker->description, a->worker->name);
+	char *fault = description_fault(a->worker);
 	if (fault) {
 		asked_broken(a, fault);
 		json_decref(a->worker->description);

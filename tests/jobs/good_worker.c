@@ -23,7 +23,7 @@
 static const char description[] =
         "{\"name\":\"%s\",\"title\":\"steps\",\"version\":1,\"inputs\":{},\"parameters\":["
         "{\"name\":\"units\",\"type\":\"integer\",\"default\":\"0\",\"min\":0,\"max\":1000},"
-        "{\"name\":\"gate\",\"type\":\"text\"}],\"outputs\":[{\"extension\":\".txt\"}]}\n";
+        "{\"name\":\"gate\",\"type\":\"text\"}],\"outputs\":[{\"extension\":\".txt\",\"kind\":\"text\"}]}\n";
 
 static void progress(int64_t done, int64_t units)
 {

@@ -53,7 +53,7 @@ static void broken_ones_are_listed_with_their_fault(void **state)
 		{ "good-worker", "good", NULL },
 		{ "bad-worker", "silent", "no answer" },
 		{ "bad-worker", "flood", "more than" },
-		{ "bad-worker", "lies", "says it is 'truth'" },
+		{ "bad-worker", "lies", "says: it is 'truth'" },
 		{ "bad-worker", "quits", "status 7" },
 	};
 	struct roster x;
