@@ -272,6 +272,7 @@ static void test_known(void **state)
 		assert_int_equal(x.n_branches, k->branches);
 		assert_int_equal(x.n_closed, k->closed);
 		assert_int_equal(x.n_undecided, 0);
+		if (x.max_error > tolerance) print_error("%s: error %g\n", k->name, x.max_error);
 		assert_true(x.max_error <= tolerance);
 		if (k->length > 0)
 			assert_true(fabs(x.length - k->length) < 1e-4 * k->length);

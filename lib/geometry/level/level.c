@@ -50,6 +50,7 @@ static void surface_destroy(struct level_surface *s)
 	free(s->bent[0]);
 	free(s->bent[1]);
 	free(s->normal_error);
+	free(s->shapes);
 	free(s->binomial);
 	free(s);
 }
@@ -122,6 +123,19 @@ static double *binomial_make(int n)
 	return b;
 }
 
+static enum status shapes_make(struct level_surface *s)
+{
+	const struct bezier_net *net = &s->net;
+	size_t n = (size_t)net->spans[0] * net->spans[1], size = bezier_patch_size(net);
+	s->shapes = malloc(sizeof *s->shapes * (n + 1));
+	if (!s->shapes)
+		return ST_RESOURCE;
+	for (size_t i = 0; i < n; i++)
+		level_shape_of_patch(net->points + size * i, net->order[0] - 1, net->order[1] - 1,
+		                     &s->shapes[i]);
+	return ST_OK;
+}
+
 static int larger_order(const struct level_surface *s)
 {
 	return s->net.order[0] > s->net.order[1] ? s->net.order[0] : s->net.order[1];
@@ -165,7 +179,11 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 		if (st != ST_OK)
 			goto fail;
 	}
+	st = shapes_make(s);
+	if (st != ST_OK)
+		goto fail;
 	level_edges(s);
+	level_proof_tables(&s->proof);
 	*out = s;
 	return ST_OK;
 fail:

@@ -79,7 +79,7 @@ struct level_branch {
 	int seams;          /* how often uv jumps, from end to start of a closed one too */
 	int mark[2];        /* the place in `undecided` where it begins and ends; -1: none */
 	double length;      /* in space */
-	double max_error;   /* largest distance found between either curve and the exact one */
+	double max_error; /* no point of either curve is further from the exact one (docs/contours.md) */
 };
 
 /*

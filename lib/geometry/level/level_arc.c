@@ -2,19 +2,13 @@
  *
  * Between two points of the curve, with its tangents there, one cubic in space and one in u,v are
  * set up. Their tangents have at first the length that suits a circle, then the one with which the
- * middle lies on the curve. A few more points are compared with the exact curve; where one is too
- * far off the arc is halved.
+ * middle lies on the curve. Where the bound of level_prove is above the tolerance the arc is halved.
  */
 #include "level_private.h"
 
 #include <math.h>
 
-enum { CHECKS = 5, FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000 };
-
-/* Part of the tolerance that the checks may use: between them the error is a little larger. */
-static const double check_share = 0.7;
-
-static const double check_at[CHECKS] = { 0.22, 0.78, 0.36, 0.64, 0.1 };
+enum { FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000 };
 
 struct station {
 	double uv[2], duv[2]; /* unit speed in space */
@@ -28,6 +22,7 @@ struct follower {
 	bool rising; /* f rises in the other */
 	double turn; /* sign that makes tangents point along the graph's variable */
 	size_t first;
+	struct prover prover;
 };
 
 static double dot(const double *a, const double *b)
@@ -90,15 +85,6 @@ static void station_find(const struct follower *w, double uv[2], struct station 
 	station_set(w, &x, uv[0], uv[1], out);
 }
 
-static void hermite(double t, double h[4])
-{
-	double s = 1 - t;
-	h[0] = s * s * (1 + 2 * t);
-	h[1] = t * t * (1 + 2 * s);
-	h[2] = t * s * s;
-	h[3] = -t * t * s;
-}
-
 /* The curve near a point: its direction, of any length, and one over that length's square. */
 struct direction {
 	double t[3], per_square;
@@ -137,18 +123,54 @@ struct lengths {
 	double uv, space;
 };
 
+static void middle_set(const struct field_point *x, const struct direction *along,
+                       const double uv[2], struct proof_middle *mid)
+{
+	double step[3];
+	mid->across[0] = dot(x->sv, along->t) * along->per_square;
+	mid->across[1] = -dot(x->su, along->t) * along->per_square;
+	for (int d = 0; d < 3; d++)
+		step[d] = x->su[d] * mid->across[0] + x->sv[d] * mid->across[1];
+	mid->step = sqrt(dot(step, step));
+	mid->uv[0] = uv[0];
+	mid->uv[1] = uv[1];
+}
+
+/* The parameters that make both curves run alike: at the ends by their speeds, in the middle by how
+ * far one is ahead. */
+static void middle_match(const struct field_point *x, const struct direction *along,
+                         const struct station *a, const struct station *b, const struct lengths *l,
+                         struct proof_middle *mid)
+{
+	double off[2], duv[2], ahead = 0, speed = 0;
+	for (int d = 0; d < 2; d++) {
+		off[d] = 0.5 * (a->uv[d] + b->uv[d]) + l->uv * (a->duv[d] - b->duv[d]) / 8 -
+		         mid->uv[d];
+		duv[d] = 1.5 * (b->uv[d] - a->uv[d]) - l->uv * (a->duv[d] + b->duv[d]) / 4;
+	}
+	for (int d = 0; d < 3; d++) {
+		double p = 0.5 * (a->p[d] + b->p[d]) + l->space * (a->dp[d] - b->dp[d]) / 8;
+		double s = x->p[d] + x->su[d] * off[0] + x->sv[d] * off[1];
+		ahead += (p - s) * along->t[d];
+		speed += (x->su[d] * duv[0] + x->sv[d] * duv[1]) * along->t[d];
+	}
+	mid->first = l->space / l->uv - 1;
+	mid->second = speed != 0 ? 16 * ahead / speed : 0;
+}
+
 /*
  * Correct the lengths so that the middle lies on the curve. uv: in, the middle of the cubic with
  * the first lengths; out, moved onto the curve. Returns the error left, squared.
  */
 static double middle_fit(const struct follower *w, const struct station *a, const struct station *b,
-                         struct lengths *l, double uv[2])
+                         struct lengths *l, double uv[2], struct proof_middle *mid)
 {
 	struct field_point x;
 	struct direction along;
 	double shift[3], duv[2], bulge[3], off[3], normal_bulge[3];
 	level_field_at(w->t, uv[0], uv[1], &x);
 	nearest(&x, &along, shift, duv);
+	middle_set(&x, &along, uv, mid);
 	double fb = (x.fu * (a->duv[0] - b->duv[0]) + x.fv * (a->duv[1] - b->duv[1])) / 8;
 	double more = fb != 0 ? -x.f / fb : 0, length = l->space;
 	if (fabs(more) < 0.1 * length)
@@ -166,43 +188,16 @@ static double middle_fit(const struct follower *w, const struct station *a, cons
 			off[d] -= more * normal_bulge[d];
 		error = dot(off, off);
 	}
+	middle_match(&x, &along, a, b, l, mid);
 	uv[0] += duv[0];
 	uv[1] += duv[1];
 	return error;
 }
 
-/* Largest distance of both cubics from the exact curve at the check points, squared. */
-static double check(const struct follower *w, const struct station *a, const struct station *b,
-                    const struct lengths *l, double error, double limit)
-{
-	for (int k = 0; k < CHECKS && error < limit; k++) {
-		double h[4], uv[2], shift[3], duv[2], off[3];
-		struct direction along;
-		struct field_point x;
-		hermite(check_at[k], h);
-		for (int d = 0; d < 2; d++)
-			uv[d] = h[0] * a->uv[d] + h[1] * b->uv[d] +
-			        l->uv * (h[2] * a->duv[d] + h[3] * b->duv[d]);
-		level_field_at(w->t, uv[0], uv[1], &x);
-		error = larger(error, nearest(&x, &along, shift, duv));
-		for (int d = 0; d < 3; d++)
-			off[d] = x.p[d] + shift[d] -
-			         (h[0] * a->p[d] + h[1] * b->p[d] +
-			          l->space * (h[2] * a->dp[d] + h[3] * b->dp[d]));
-		error = larger(error, across(off, &along));
-	}
-	return error;
-}
-
-static void piece_add(const struct follower *w, const struct station *a, const struct station *b,
-                      const struct lengths *l, double error)
+static void piece_set(const struct station *a, const struct station *b, const struct lengths *l,
+                      struct piece *p)
 {
 	const struct station *s[2] = { a, b };
-	struct piece *p = list_add(&w->t->pieces, sizeof *p);
-	if (!p) {
-		w->t->failed = true;
-		return;
-	}
 	for (int e = 0; e < 2; e++) {
 		for (int d = 0; d < 2; d++) {
 			p->uv[e][d] = s[e]->uv[d];
@@ -213,7 +208,15 @@ static void piece_add(const struct follower *w, const struct station *a, const s
 			p->dp[e][d] = l->space * s[e]->dp[d];
 		}
 	}
-	p->error = sqrt(error);
+}
+
+static void piece_add(const struct follower *w, const struct piece *p)
+{
+	struct piece *out = list_add(&w->t->pieces, sizeof *out);
+	if (out)
+		*out = *p;
+	else
+		w->t->failed = true;
 }
 
 static bool inside_nearly(const double uv[2])
@@ -221,11 +224,50 @@ static bool inside_nearly(const double uv[2])
 	return uv[0] > -0.1 && uv[0] < 1.1 && uv[1] > -0.1 && uv[1] < 1.1;
 }
 
+/* The point of the curve next to uv. */
+static void station_between(const struct follower *w, const struct station *a,
+                            const struct station *b, const double uv[2], struct station *out)
+{
+	double at[2] = { uv[0], uv[1] };
+	double from = a->uv[w->along], to = b->uv[w->along];
+	double share = (at[w->along] - from) / (to - from);
+	if (!(share > 0.02 && share < 0.98))
+		at[w->along] = 0.5 * (from + to);
+	station_find(w, at, out);
+}
+
+/* A piece far below the tolerance, whose tangents may be rounding: the bound of a straight one, and
+ * how far the cubic can be from that. */
+static double tiny_error(const struct follower *w, const struct station *a, const struct station *b,
+                         double size)
+{
+	struct field_point at;
+	struct direction along;
+	struct proof_middle mid = { .first = 0 };
+	double uv[2], shift[3], duv[2], rounding;
+	struct piece x = { .error = 0 };
+	for (int d = 0; d < 2; d++) {
+		uv[d] = 0.5 * (a->uv[d] + b->uv[d]);
+		for (int e = 0; e < 2; e++) {
+			x.uv[e][d] = e ? b->uv[d] : a->uv[d];
+			x.duv[e][d] = b->uv[d] - a->uv[d];
+		}
+	}
+	for (int d = 0; d < 3; d++)
+		for (int e = 0; e < 2; e++) {
+			x.p[e][d] = e ? b->p[d] : a->p[d];
+			x.dp[e][d] = b->p[d] - a->p[d];
+		}
+	level_field_at(w->t, uv[0], uv[1], &at);
+	nearest(&at, &along, shift, duv);
+	middle_set(&at, &along, uv, &mid);
+	return level_prove(&w->prover, &x, &mid, &rounding) + 3 * size;
+}
+
 static void fit(const struct follower *w, const struct station *a, const struct station *b,
                 int depth)
 {
-	double tolerance = w->t->level->tolerance, limit = check_share * tolerance;
-	double chord[3], error = INFINITY;
+	double tolerance = w->t->level->tolerance, chord[3];
 	double uv[2] = { 0.5 * (a->uv[0] + b->uv[0]), 0.5 * (a->uv[1] + b->uv[1]) };
 	for (int d = 0; d < 3; d++)
 		chord[d] = b->p[d] - a->p[d];
@@ -233,48 +275,60 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 	/* a circle's arc of that chord and turn: chord / cos^2 (angle / 4) */
 	double first = size * 2 / (1 + sqrt(larger(0, (1 + turn) / 2)));
 	struct lengths l = { first, first };
-	bool tiny = size < 1e-3 * tolerance;
-	if (tiny) {
-		error = size * size;
-	} else if (turn > 0.3 && dot(chord, a->dp) > 0) {
+	/* ends, curve and cubics are in the cell or near it */
+	double error = 2 * w->prover.diameter, rounding = 0;
+	struct piece x;
+	if (error > tolerance && turn > 0.3 && dot(chord, a->dp) > 0) {
 		double middle[2];
 		for (int d = 0; d < 2; d++)
-			middle[d] = uv[d] + first * (a->duv[d] - b->duv[d]) / 8;
+			middle[d] =
+			        0.5 * (a->uv[d] + b->uv[d]) + first * (a->duv[d] - b->duv[d]) / 8;
 		if (inside_nearly(middle)) {
-			error = middle_fit(w, a, b, &l, middle);
-			error = check(w, a, b, &l, error, limit * limit);
+			struct proof_middle mid;
+			double off = middle_fit(w, a, b, &l, middle, &mid);
+			piece_set(a, b, &l, &x);
+			if (off < tolerance * tolerance)
+				error = smaller(error,
+				                level_prove(&w->prover, &x, &mid, &rounding));
 			uv[0] = middle[0];
 			uv[1] = middle[1];
 		}
 	}
-	bool enough = depth >= FIT_DEPTH_MAX ||
+	bool tiny = size < 1e-3 * tolerance;
+	if (tiny && error > tolerance)
+		error = smaller(error, tiny_error(w, a, b, size));
+	bool enough = tiny || depth >= FIT_DEPTH_MAX ||
 	              (depth > FIT_DEPTH_EASY && w->t->pieces.n - w->first > PIECES_MAX);
-	if (tiny || error < limit * limit || enough || w->t->failed) {
-		piece_add(w, a, b, &l, isfinite(error) ? error : size * size);
+	if (error <= tolerance + rounding || enough || w->t->failed) {
+		piece_set(a, b, &l, &x);
+		x.error = error;
+		piece_add(w, &x);
 		return;
 	}
-	int along = w->along;
-	double from = a->uv[along], to = b->uv[along], share = (uv[along] - from) / (to - from);
-	if (!(share > 0.02 && share < 0.98))
-		uv[along] = 0.5 * (from + to);
 	struct station s;
-	station_find(w, uv, &s);
+	station_between(w, a, b, uv, &s);
 	fit(w, a, &s, depth + 1);
 	fit(w, &s, b, depth + 1);
 }
 
-void level_arc_follow(struct tracer *t, const struct cell_range *box, int along, bool rising,
-                      const double ends[2][2])
+void level_arc_follow(struct tracer *t, const struct cell_range *box, const double *c, double error,
+                      int along, bool rising, const double ends[2][2])
 {
 	/* (-fv, fu) points towards larger v where fu > 0, towards larger u where fv < 0 */
 	double turn = (along == 1) == rising ? 1 : -1;
-	struct follower w = { t, box, along, rising, turn, t->pieces.n };
+	struct follower w = { .t = t,
+		              .box = box,
+		              .along = along,
+		              .rising = rising,
+		              .turn = turn,
+		              .first = t->pieces.n };
 	struct station s[2];
 	for (int e = 0; e < 2; e++) {
 		struct field_point x;
 		level_field_at(t, ends[e][0], ends[e][1], &x);
 		station_set(&w, &x, ends[e][0], ends[e][1], &s[e]);
 	}
+	level_prover_init(&w.prover, t, box, c, error);
 	fit(&w, &s[0], &s[1], 0);
 	struct arc *arc = list_add(&t->arcs, sizeof *arc);
 	if (!arc) {

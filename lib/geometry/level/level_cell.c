@@ -153,7 +153,7 @@ static void arc_add(const struct graph *g, const struct place ends[2])
 		x->end = e;
 		x->at = uv[e][1 - x->d];
 	}
-	level_arc_follow(t, &r, along, g->rising, uv);
+	level_arc_follow(t, &r, g->c, g->cell->error, along, g->rising, uv);
 }
 
 /*

@@ -202,8 +202,8 @@ bool level_field_make(struct tracer *t, double *out)
 	if (!there)
 		return false;
 	clean_sides(t, out);
-	if (t->own_field)
-		memcpy(t->field, out, sizeof *out * t->n_field);
+	memcpy(t->field, out, sizeof *out * t->n_field);
+	t->most = form_most(out, t->n_field);
 	return true;
 }
 

@@ -37,6 +37,19 @@ enum edge_kind {
 	EDGE_POLE,   /* the surface ends in one point */
 };
 
+/* Bounds over a patch: weights, reach from the first point, first and second (uu, uv, vv)
+ * derivatives of S. */
+struct patch_shape {
+	double weight[2], radius, first[2], second[3];
+};
+
+/* Chebyshev's nodes, Hermite's polynomials there, and the cosines that take values in the nodes to
+ * coefficients. */
+enum { PROOF_NODES = 16 };
+struct proof_tables {
+	double t[PROOF_NODES], h[PROOF_NODES][4], cosine[PROOF_NODES][PROOF_NODES / 2];
+};
+
 /* What does not depend on the value: net, normals, edges. */
 struct level_surface {
 	struct bezier_net net;
@@ -51,7 +64,9 @@ struct level_surface {
 	double reach, weight; /* largest |w S| and w of the control points */
 	double extent[3];     /* largest |w x|, |w y|, |w z| of the control points */
 	struct bound of_points, of_weights; /* any component of w S; w */
-	double *normal_error;   /* owned; one a patch: of each component's coefficients */
+	double *normal_error;       /* owned; one a patch: of each component's coefficients */
+	struct patch_shape *shapes; /* owned; one a patch */
+	struct proof_tables proof;
 	unsigned char *bent[2]; /* owned; like edges: derivatives of f may jump there */
 	double *binomial;       /* owned; triangle of rows, see binomial_row */
 };
@@ -141,7 +156,7 @@ void *list_add(struct list *l, size_t size); /* zeroed room for one more, or NUL
 struct piece {
 	double uv[2][2], duv[2][2]; /* [end][u or v], in the patch */
 	double p[2][3], dp[2][3];
-	double error; /* largest distance found */
+	double error; /* no point of both is further from the exact curve */
 };
 
 struct arc {
@@ -172,11 +187,12 @@ struct tracer {
 	int patch, place[2];
 	bool bent[2][2]; /* its side (d, upper) is one where derivatives of f may jump */
 	const double *points, *normals;
-	double *field;          /* coefficients of f, as searched at first */
+	double *field;          /* coefficients of f */
 	size_t n_field, n_side; /* coefficients of f, and of the side condition behind them */
 	bool own_field;         /* f is evaluated from `field` (a factor was taken out) */
 	struct bound bound;     /* of f; its size that of the terms that f is a sum of */
 	double side_error;
+	double most; /* largest coefficient of f */
 	struct list arcs, pieces, ends, undecided;
 	double *scratch[N_SCRATCH]; /* cells on the way down, one array a depth */
 	double *product;            /* room for scaled factors of a product */
@@ -219,8 +235,40 @@ void level_search(struct tracer *t, double *c);
 struct cell_range {
 	double lo[2], hi[2];
 };
-void level_arc_follow(struct tracer *t, const struct cell_range *box, int along, bool rising,
-                      const double ends[2][2]);
+/* c: f in the cell, and its error. */
+void level_arc_follow(struct tracer *t, const struct cell_range *box, const double *c, double error,
+                      int along, bool rising, const double ends[2][2]);
+
+/* level_prove.c */
+void level_proof_tables(struct proof_tables *p);
+void level_shape_of_patch(const double *points, int m, int n, struct patch_shape *out);
+
+/* Bounds that hold for all pieces of one cell. */
+struct prover {
+	const struct tracer *t;
+	const struct patch_shape *shape;
+	struct cell_range box;
+	bool rational;
+	double second[3]; /* of f, in the cell */
+	double error;     /* of f, where it is evaluated */
+	double diameter;  /* of the cell, in space */
+};
+void level_prover_init(struct prover *p, const struct tracer *t, const struct cell_range *box,
+                       const double *c, double error);
+
+/*
+ * A place near the middle of a piece: the step across the curve that changes f by 1, its length in
+ * space; and how the parameter in u,v is taken to that in space, t + t (1 - t) (first (1 - 2 t) +
+ * second t (1 - t)).
+ */
+struct proof_middle {
+	double uv[2], across[2], step, first, second;
+};
+
+/* No point of either curve is further from the exact one than this; INFINITY: nothing is known. The
+ * part that comes from the rounding of f, and stays however short the piece, is in *rounding. */
+double level_prove(const struct prover *p, const struct piece *x, const struct proof_middle *mid,
+                   double *rounding);
 
 /* Ends of a strand on the border of its patch, or loose inside. */
 enum strand_end_kind { STRAND_BORDER, STRAND_LOOSE, STRAND_CLOSED };
