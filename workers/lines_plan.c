@@ -264,7 +264,7 @@ static double piece_extent(const struct stroke *s, bool height)
 	return hi - lo;
 }
 
-/* The curve's number: over its upper end in the body plan, on it elsewhere. */
+/* The curve's number: over its upper end in the body plan, where there is room; else on it. */
 static void curve_label(struct drawing *d, const struct contour_set *set, int place,
                         const struct stroke *s)
 {
@@ -282,16 +282,14 @@ static void curve_label(struct drawing *d, const struct contour_set *set, int pl
 			}
 	const size_t before = d->scene.n_texts;
 	if (set->kind == CONTOUR_STATIONS)
-		label(d, LABEL_NOTE, color, at[0], at[1] - 9, 0.5, false, text);
+		label(d, LABEL_NOTE, color, at[0], at[1] - 10, 0.5, false, text);
 	/* neighbours begin to try at different places, where curves run close together */
-	for (int i = 0; set->kind != CONTOUR_STATIONS && i < N_SHARES; i++) {
+	for (int i = 0; d->scene.n_texts == before && i < N_SHARES; i++) {
 		stroke_point(s, shares[(i + place) % N_SHARES], at);
 		label(d, LABEL_NOTE, color, at[0], at[1], 0.5, false, text);
-		if (d->scene.n_texts > before) {
-			d->scene.texts[before].plate = true;
-			return;
-		}
 	}
+	if (d->scene.n_texts > before)
+		d->scene.texts[before].plate = true;
 }
 
 static enum status curves_draw(struct drawing *d, int view)

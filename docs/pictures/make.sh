@@ -13,4 +13,6 @@ cd "$work"
 "$build/workers/batten-raytrace" "$hull" --view $view --size 1200x400 --samples 4 --png
 "$build/workers/batten-curvature" "$hull#2" --view $view --size 1200x400 --quantity H
 "$build/workers/batten-isophotes" "$hull#2" --view $view --svg
-cp hull.shade.png hull.trace.png hull.view.png hull.isophote.svg "$out"
+"$build/workers/batten-contours" "$hull" --stations 0:142:21 --waterlines 1:13:13 --buttocks 5 --draught 6.2 --svg
+"$build/workers/batten-reflection" "$hull#2" --kind highlight --view $view --svg
+cp hull.shade.png hull.trace.png hull.view.png hull.isophote.svg hull.contour.svg hull.reflect.svg "$out"
