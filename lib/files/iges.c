@@ -8,8 +8,12 @@
 /* P lines an entity may be read again for those that use it, on the average. */
 enum { BUDGET_A_LINE = 16, BUDGET_MORE = 100000 };
 
-/* Types that are read on behalf of others: transforms, colors, directions. 0 is no entity. */
-static const int helpers[] = { 0, 123, 124, 314 };
+/* Types that are read on behalf of others, or say themselves what is wrong with them: directions,
+ * transforms, colors, faces and what they make up, subfigures. 0 is no entity. */
+static const int helpers[] = { 0, 123, 124, 143, 144, 186, 308, 314, 408, 510, 514 };
+
+/* Parts of trims, read where a face uses them. */
+static const int trim_parts[] = { 141, 142, 502, 504, 508 };
 
 /* Why types are not read. The last row is for all others. */
 static const struct {
@@ -21,21 +25,18 @@ static const struct {
 	{ 130, 130, "offset curves are not read" },
 	{ 132, 132, "connect points are not read" },
 	{ 134, 138, "finite elements are not read" },
-	{ 141, 144, "trims are not read yet; the surface under it is read by itself" },
+	{ 141, 141, "a boundary that no face uses" },
 	{ 146, 148, "finite elements are not read" },
 	{ 150, 184, "solids made of primitives are not read" },
-	{ 186, 186, "solids are not read yet; the surfaces of their faces are read by themselves" },
 	{ 192, 198, "surfaces given by formula are not read yet" },
 	{ 202, 230, "annotation, not geometry" },
-	{ 302, 320, "definitions (fonts, line styles, subfigures) are not read yet" },
-	{ 402, 402,
-	  "groups and associations are not read yet; their members are read by themselves" },
+	{ 302, 320, "definitions (fonts, line styles, networks) are not read" },
+	{ 402, 402, "associations other than groups are not read" },
 	{ 404, 404, "drawings are not read" },
 	{ 406, 406, "properties other than names are not read" },
-	{ 408, 408, "subfigures are not placed yet" },
 	{ 410, 410, "views are not read" },
 	{ 412, 422, "arrays, references and networks are not read" },
-	{ 502, 514, "trims are not read yet; the surfaces of faces are read by themselves" },
+	{ 502, 508, "vertices, edges and loops that no face uses" },
 	{ 0, 99999, "a type that batten does not know" },
 };
 
@@ -48,101 +49,24 @@ static const char *skip_reason(int type)
 	return skips[i].reason;
 }
 
+static bool is_in(const int *types, size_t n, int type)
+{
+	for (size_t i = 0; i < n; i++)
+		if (types[i] == type)
+			return true;
+	return false;
+}
+
 static bool is_helper(const struct iges_entry *e)
 {
-	for (size_t i = 0; i < sizeof helpers / sizeof helpers[0]; i++)
-		if (helpers[i] == e->type)
-			return true;
-	return e->type == 406 && e->form == 15;
+	return is_in(helpers, sizeof helpers / sizeof helpers[0], e->type) ||
+	       (e->used && is_in(trim_parts, sizeof trim_parts / sizeof trim_parts[0], e->type)) ||
+	       (e->type == 406 && e->form == 15) || iges_is_group(e);
 }
 
-/* The name in property `de` if it is one (406 form 15); replaces the one there. */
-static enum status take_name(struct iges *g, int de, struct entity *out)
+static bool is_lone_curve(const struct iges_entry *e)
 {
-	struct iges_cursor c;
-	struct text name = { 0 };
-	const struct iges_entry *e = iges_entry(g, de);
-	if (!e || e->type != 406 || e->form != 15)
-		return ST_OK;
-	enum status st = iges_open(g, de, 406, &c);
-	if (st != ST_OK)
-		return st;
-	iges_int(&c); /* how many properties: 1 */
-	iges_string(&c, &name);
-	while (name.n && name.s[name.n - 1] == ' ')
-		name.s[--name.n] = '\0';
-	st = c.st;
-	if (name.failed)
-		st = ST_RESOURCE;
-	if (st == ST_OK && name.n)
-		st = model_set_text(&out->name, name.s);
-	text_finish(&name);
-	return st;
-}
-
-/* Behind the parameters: pointers to associations and texts, then those to properties. */
-static enum status read_properties(struct iges_cursor *c, struct entity *out)
-{
-	enum status st = ST_OK;
-	for (int list = 0; list < 2 && !c->ended; list++) {
-		int n = iges_count(c, "number of pointers", 0, iges_left(c));
-		for (int i = 0; i < n && c->st == ST_OK && st == ST_OK && !c->ended; i++) {
-			int de = iges_int(c);
-			if (list == 1)
-				st = take_name(c->g, de, out);
-		}
-	}
-	if (st == ST_OK && (c->st == ST_CANCELLED || c->st == ST_RESOURCE))
-		st = c->st;
-	return st == ST_INPUT ? ST_OK : st; /* a name lost is no geometry lost */
-}
-
-/* The label of the directory, "HULL" or, with a subscript, "HULL.3". */
-static enum status set_label(const struct iges_entry *e, struct entity *out)
-{
-	if (!e->label[0])
-		return ST_OK;
-	out->name = e->subscript ? text_print("%s.%d", e->label, e->subscript) : strdup(e->label);
-	return out->name ? ST_OK : ST_RESOURCE;
-}
-
-/* 1 .. 8, or a 314 with red, green, blue in percent. A bad one is no color. */
-static enum status set_color(struct iges *g, const struct iges_entry *e, struct entity *out)
-{
-	static const double standard[9][3] = {
-		[1] = { 0, 0, 0 }, [2] = { 1, 0, 0 }, [3] = { 0, 1, 0 }, [4] = { 0, 0, 1 },
-		[5] = { 1, 1, 0 }, [6] = { 1, 0, 1 }, [7] = { 0, 1, 1 }, [8] = { 1, 1, 1 },
-	};
-	struct iges_cursor c;
-	if (e->color >= 1 && e->color <= 8) {
-		memcpy(out->color, standard[e->color], sizeof out->color);
-		out->has_color = true;
-	}
-	if (e->color >= 0)
-		return ST_OK;
-	enum status st = iges_open(g, -e->color, 314, &c);
-	if (st == ST_OK) {
-		for (int i = 0; i < 3; i++)
-			out->color[i] = fmin(fmax(iges_real(&c) / 100, 0), 1);
-		st = c.st;
-	}
-	out->has_color = st == ST_OK;
-	return st == ST_INPUT ? ST_OK : st;
-}
-
-static enum status set_faces(struct iges *g, const struct iges_entry *e, struct entity *out)
-{
-	enum status st = ST_OK;
-	out->trims = e->trims;
-	for (int i = e->first_face; i >= 0 && st == ST_OK; i = g->faces[i].next)
-		st = entity_add_face(out, g->faces[i].de);
-	/* the list runs from the last to the first */
-	for (int i = 0, j = out->n_faces - 1; i < j; i++, j--) {
-		int de = out->faces[i];
-		out->faces[i] = out->faces[j];
-		out->faces[j] = de;
-	}
-	return st;
+	return e->type == 142 && !e->used;
 }
 
 static enum status read_geometry(struct iges *g, int de, struct entity *out)
@@ -163,13 +87,22 @@ static enum status read_geometry(struct iges *g, int de, struct entity *out)
 		st = iges_points(g, de, &out->points, &c);
 	}
 	if (st == ST_OK)
-		st = set_label(e, out);
+		st = iges_name_behind(&c, out);
 	if (st == ST_OK)
-		st = read_properties(&c, out);
-	if (st == ST_OK)
-		st = set_color(g, e, out);
-	if (st == ST_OK)
-		st = set_faces(g, e, out);
+		st = iges_color(g, de, out);
+	return st;
+}
+
+/* Faces on a surface that cannot be read are lost with it. */
+static enum status lose_faces(struct iges *g, int de)
+{
+	char reason[64];
+	enum status st = ST_OK;
+	snprintf(reason, sizeof reason, "its surface D%d cannot be read", de);
+	for (int i = iges_entry(g, de)->uses; i >= 0 && st == ST_OK; i = g->uses[i].next)
+		if (g->uses[i].face)
+			st = model_skip(g->m, iges_entry(g, g->uses[i].face)->type, g->uses[i].face,
+			                reason);
 	return st;
 }
 
@@ -178,37 +111,95 @@ static enum status read_entity(struct iges *g, int de)
 	struct entity out;
 	const struct iges_entry *e = iges_entry(g, de);
 	enum status st = read_geometry(g, de, &out);
-	if (st == ST_OK) {
-		out.de = de;
-		out.source_type = e->type;
-		out.used = e->used && out.kind != ENTITY_SURFACE;
-		if (e->blanked)
-			iges_warn(g, WARN_BLANKED, de);
-		return model_add(g->m, &out);
+	out.de = de;
+	out.source_type = e->type;
+	out.used = e->used && out.kind != ENTITY_SURFACE;
+	if (st == ST_INPUT) {
+		entity_finish(&out);
+		st = model_skip(g->m, e->type, de, g->reason);
+		return st == ST_OK ? lose_faces(g, de) : st;
 	}
+	if (st == ST_OK)
+		st = iges_show(g, de, &out);
+	if (st == ST_OK && e->blanked)
+		iges_warn(g, WARN_BLANKED, de);
+	if (st == ST_OK)
+		return model_add(g->m, &out);
 	entity_finish(&out);
-	if (st != ST_INPUT)
-		return st;
-	return model_skip(g->m, e->type, de, g->reason);
+	return st;
 }
 
-/* Points come last, so that the numbers of curves and surfaces do not depend on them. */
+static enum status read_curve_on_surface(struct iges *g, int de)
+{
+	struct entity out;
+	const struct iges_entry *e = iges_entry(g, de);
+	g->reason[0] = g->store.error[0] = '\0';
+	g->at = de;
+	enum status st = iges_curve_on_surface(g, de, &out);
+	out.de = de;
+	out.source_type = e->type;
+	if (st == ST_OK)
+		st = iges_color(g, de, &out);
+	if (st == ST_OK)
+		return model_add(g->m, &out);
+	entity_finish(&out);
+	return st == ST_INPUT ? model_skip(g->m, e->type, de, g->reason) : st;
+}
+
+/* Entities in the order of their numbers: what one depends on stands before. */
+enum pass { SHAPES, POINTS, CURVES_ON_SURFACES, N_PASSES };
+
+static enum pass pass_of(const struct iges_entry *e)
+{
+	return iges_is_points(e) ? POINTS : is_lone_curve(e) ? CURVES_ON_SURFACES : SHAPES;
+}
+
+static enum status read_next(struct iges *g, enum pass pass, int de)
+{
+	const struct iges_entry *e = iges_entry(g, de);
+	if (pass_of(e) != pass)
+		return ST_OK;
+	if (pass == CURVES_ON_SURFACES)
+		return read_curve_on_surface(g, de);
+	if (pass == POINTS || iges_is_curve(e) || iges_is_surface(e))
+		return read_entity(g, de);
+	return is_helper(e) ? ST_OK : model_skip(g->m, e->type, de, skip_reason(e->type));
+}
+
+/* What came up on the way follows: surfaces once more, instances. */
+static enum status append_more(struct iges *g)
+{
+	enum status st = ST_OK;
+	for (int i = 0; i < g->more.n && st == ST_OK; i++)
+		st = model_add(g->m, &g->more.entities[i]);
+	model_finish(&g->more);
+	return st;
+}
+
+/* Curves and surfaces first, so that their numbers do not depend on the others. */
 static enum status read_entities(struct iges *g)
 {
 	enum status st = ST_OK;
-	for (int points = 0; points < 2; points++)
+	for (enum pass pass = 0; pass < N_PASSES && st == ST_OK; pass++) {
 		for (int i = 0; i < g->n_entries && st == ST_OK; i++) {
-			const struct iges_entry *e = &g->entries[i];
-			bool shape = iges_is_curve(e) || iges_is_surface(e);
-			if (points ? iges_is_points(e) : shape)
-				st = read_entity(g, 2 * i + 1);
-			else if (!points && !iges_is_points(e) && !is_helper(e))
-				st = model_skip(g->m, e->type, 2 * i + 1, skip_reason(e->type));
+			st = read_next(g, pass, 2 * i + 1);
 			if (st == ST_OK && (i & 0xff) == 0xff)
 				st = progress_step(g->progress,
 				                   g->n_p ? (double)g->far / g->n_p : 0);
 		}
+		if (st == ST_OK)
+			st = append_more(g);
+	}
 	return st;
+}
+
+static enum status say_mended(struct iges *g)
+{
+	if (!g->mended.count)
+		return ST_OK;
+	return model_warn(g->m, "%d %s on the mending of trims: %s%s", g->mended.count,
+	                  g->mended.count == 1 ? "note" : "notes",
+	                  g->mended.count == 1 ? "" : "the first is ", g->mended.first);
 }
 
 /* The T line counts the lines of each section: fewer here means that some are lost. */
@@ -236,9 +227,13 @@ static enum status read_all(struct iges *g)
 	g->budget = (int64_t)BUDGET_A_LINE * g->n_p + BUDGET_MORE;
 	if (st == ST_OK)
 		st = iges_find_uses(g);
+	if (st == ST_OK)
+		st = iges_place(g);
 	g->budget = (int64_t)BUDGET_A_LINE * g->n_p + BUDGET_MORE;
 	if (st == ST_OK)
 		st = read_entities(g);
+	if (st == ST_OK)
+		st = say_mended(g);
 	if (st == ST_OK)
 		st = iges_say_warnings(g);
 	return st;
@@ -261,6 +256,7 @@ enum status iges_parse(struct model *m, const char *bytes, size_t n, const char 
 {
 	struct iges g = { .bytes = bytes, .n = n, .name = name, .m = m, .progress = p, .r = r };
 	report_store_init(&g.store);
+	model_init(&g.more);
 	enum status st = iges_index(&g);
 	if (st == ST_OK) {
 		st = read_all(&g);
@@ -276,7 +272,9 @@ enum status iges_parse(struct model *m, const char *bytes, size_t n, const char 
 	free(g.p_lines);
 	free(g.entries);
 	free(g.first_lines);
-	free(g.faces);
+	free(g.uses);
+	free(g.matrices);
+	model_finish(&g.more);
 	free(g.bounds);
 	free(g.edges.curves);
 	return st;

@@ -65,7 +65,7 @@ enum status iges_read_directory(struct iges *g)
 			.lines = field_int(g, b, 3),
 			.form = field_int(g, b, 4),
 			.subscript = field_int(g, b, 8),
-			.first_face = -1,
+			.uses = -1,
 			.first_edge = -1,
 		};
 		field_label(g, b, e->label);
@@ -108,6 +108,13 @@ enum status iges_say_warnings(struct iges *g)
 		        "differs inside the surface",
 		[WARN_OFFSET] = "an offset surface, which is approximated",
 		[WARN_SEQUENCE] = "two directory lines that name different types",
+		[WARN_TWO_COURSES] = "loops whose curves in u,v and in space disagree; those in "
+		                     "space are taken",
+		[WARN_PARAMETERS] = "loops given only in parameters that are not the ones of the "
+		                    "spline it became; they may be off inside it",
+		[WARN_FAR] = "trimmed by curves that do not lie on it; they are brought down to it",
+		[WARN_UNPLACED] = "a subfigure that nothing places; its members are read as they "
+		                  "stand",
 	};
 	for (int w = 0; w < N_IGES_WARNINGS; w++) {
 		int n = g->warned[w].count;

@@ -35,13 +35,19 @@ struct iges_entry {
 	char label[9];
 	bool blanked;
 	bool used;      /* another entity is made of it */
-	int trims;      /* loops of all faces on it */
-	int first_face; /* in faces[], 0: none */
+	bool reached;   /* a face, shell, solid or instance that has been placed */
+	char state;     /* of a definition, while it is looked for circles */
+	int uses;       /* last of its uses, in uses[], -1: none */
 	int first_edge; /* in bounds[]: curves that bound the faces on it; -1: none */
 };
 
-struct iges_face {
-	int de, next;
+/* What shows a surface, a curve or points: a face that lies on it, an instance of a subfigure. */
+struct iges_use {
+	int face;   /* directory entry of the 143, 144 or 510, 0: none */
+	int via;    /* of the outermost 408, 0: none */
+	int matrix; /* in matrices[], -1: it stays where it is */
+	int loops;  /* of the face */
+	int next;   /* the use before this one, -1: none */
 };
 
 struct iges_bound {
@@ -59,6 +65,10 @@ enum iges_warning {
 	WARN_RULED,
 	WARN_OFFSET,
 	WARN_SEQUENCE,
+	WARN_TWO_COURSES,
+	WARN_PARAMETERS,
+	WARN_FAR,
+	WARN_UNPLACED,
 	N_IGES_WARNINGS,
 };
 
@@ -83,20 +93,27 @@ struct iges {
 	struct iges_entry *entries; /* owned */
 	int n_entries;
 	int *first_lines; /* owned; by back pointer: first P line of each entry, from 1; or NULL */
-	struct iges_face *faces;   /* owned */
+	struct iges_use *uses;     /* owned */
 	struct iges_bound *bounds; /* owned */
-	int n_faces, n_bounds;
+	double (*matrices)[3][4];  /* owned */
+	int n_uses, n_bounds, n_matrices;
 	int64_t budget; /* P lines that may still be read on behalf of other entities: keeps files
 	                   that refer to themselves in ever more ways from taking ever more time */
+	int64_t copies; /* P lines whose entities instances may still repeat */
 	uint64_t steps; /* P lines read */
 	int far;        /* the last P line reached, for progress */
 	struct {
 		int count, first;
 	} warned[N_IGES_WARNINGS];
-	struct iges_edges edges;   /* the list last looked at */
-	bool quiet;                /* a first look: warnings are said at the second */
-	int at;                    /* the entity at hand, which warnings are about; 0: none */
-	char reason[1024];         /* why the entity at hand cannot be read */
+	struct iges_edges edges; /* the list last looked at */
+	struct {
+		int count;
+		char first[512];
+	} mended;          /* notes on trims */
+	struct model more; /* entities that come after the others: copies, curves on surfaces */
+	bool quiet;        /* a first look: warnings are said at the second */
+	int at;            /* the entity at hand, which warnings are about; 0: none */
+	char reason[1024]; /* why the entity at hand cannot be read */
 	struct report_store store; /* where kernel functions leave their sentence */
 	struct model *m;
 	const struct progress *progress;
@@ -152,12 +169,40 @@ enum status iges_refuse(struct iges *g, const char *format, ...)
 /* Pass a failure on as ST_INPUT, a kernel function's sentence as the reason if it left one. */
 enum status iges_pass(struct iges *g, enum status st);
 
-/* iges_uses.c: which entities are parts of others, which faces lie on which surface.
- * Errors: ST_RESOURCE, ST_CANCELLED. */
+/* iges_uses.c: which entities are parts of others. Errors: ST_RESOURCE, ST_CANCELLED. */
 enum status iges_find_uses(struct iges *g);
+/* The curve of edge `index` (from 1) of the list 504, 0 if it has no such edge. Errors: ST_INPUT. */
+enum status iges_edge(struct iges *g, int list, int index, int *curve);
+
+/* iges_place.c: which faces lie on which surface, what instances of subfigures show, and where.
+ * Errors: ST_RESOURCE, ST_CANCELLED. */
+enum status iges_place(struct iges *g);
+bool iges_is_face(const struct iges_entry *e);
+bool iges_is_group(const struct iges_entry *e);
+
+/* iges_names.c: the label of entry `de` or its property as the name, its color; what is bad or not
+ * there leaves them empty. `c` stands behind the entity's own parameters.
+ * Errors: ST_RESOURCE, ST_CANCELLED. */
+enum status iges_name_behind(struct iges_cursor *c, struct entity *out);
+enum status iges_name(struct iges *g, int de, struct entity *out);
+enum status iges_color(struct iges *g, int de, struct entity *out);
+
+/* iges_faces.c: the uses of an entity that has been read: its trims, its place, its copies (to
+ * g->more). Errors: ST_RESOURCE, ST_CANCELLED. */
+enum status iges_show(struct iges *g, int de, struct entity *out);
+/* A 142 that no face uses. Errors: also ST_INPUT with g->reason. */
+enum status iges_curve_on_surface(struct iges *g, int de, struct entity *out);
+
+/* iges_trims.c: the loops of face `de` on surface `base` as it stands without the face's place.
+ * Loops that are lost are counted. Errors: ST_INPUT with g->reason, ST_RESOURCE, ST_CANCELLED. */
+enum status iges_trim(struct iges *g, int de, int base, const struct surface *s, struct trim *out);
+/* Curves of a 142, in u,v and in space. */
+enum status iges_trim_curves(struct iges *g, int de, const struct surface *s, struct trim_loop *uv);
 
 /* iges_transform.c: the matrix of an entry's 124 and all that those refer to. */
 enum status iges_matrix(struct iges *g, int transform, double m[3][4], bool *any);
+/* a = b after a. */
+void iges_multiply(const double b[3][4], double a[3][4]);
 enum status iges_point_at(struct iges *g, int de, struct vec3 *p);     /* a 116 */
 enum status iges_direction_at(struct iges *g, int de, struct vec3 *d); /* a 123 */
 

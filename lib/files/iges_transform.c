@@ -5,8 +5,7 @@
 
 static const double identity[3][4] = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 } };
 
-/* a = b after a. */
-static void multiply(const double b[3][4], double a[3][4])
+void iges_multiply(const double b[3][4], double a[3][4])
 {
 	double out[3][4];
 	for (int i = 0; i < 3; i++)
@@ -38,7 +37,7 @@ enum status iges_matrix(struct iges *g, int transform, double m[3][4], bool *any
 				          transform);
 		if (c.st != ST_OK)
 			return c.st;
-		multiply(step, m);
+		iges_multiply((const double(*)[4])step, m);
 		transform = iges_entry(g, transform)->transform;
 	}
 	return ST_OK;

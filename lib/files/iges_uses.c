@@ -1,5 +1,5 @@
-/* iges_uses.c - which entities are parts of others, which faces lie on which surface, and which
- * curves bound the faces on a plane that has no bounds of its own. */
+/* iges_uses.c - which entities are parts of others, and which curves bound the faces on a plane that
+ * has no bounds of its own. */
 #include "iges_reader.h"
 
 #include <limits.h>
@@ -10,24 +10,6 @@ static void use(struct iges *g, int de)
 	struct iges_entry *e = iges_entry(g, abs(de));
 	if (e)
 		e->used = true;
-}
-
-static enum status add_face(struct iges *g, int surface, int face, int loops)
-{
-	struct iges_entry *e = iges_entry(g, surface);
-	if (!e || !iges_is_surface(e))
-		return ST_OK;
-	if ((g->n_faces & (g->n_faces - 1)) == 0) {
-		void *p = reallocarray(g->faces, g->n_faces ? (size_t)g->n_faces * 2 : 1,
-		                       sizeof *g->faces);
-		if (!p)
-			return ST_RESOURCE;
-		g->faces = p;
-	}
-	g->faces[g->n_faces] = (struct iges_face){ face, e->first_face };
-	e->first_face = g->n_faces++;
-	e->trims += loops;
-	return ST_OK;
 }
 
 /* A curve in space bounds a face on `surface`; kept for planes only. */
@@ -119,21 +101,21 @@ static enum status uses_curve_on_surface(struct iges_cursor *c)
 	return ST_OK;
 }
 
-/* 504: curve and where its two vertices are listed. */
+/* 504: curve, and list and place of its two vertices. */
 static enum status uses_edges(struct iges_cursor *c)
 {
 	int n = iges_count(c, "count", 0, iges_left(c));
 	for (int i = 0; i < n && c->st == ST_OK; i++)
-		use_fixed(c, 0, 1), use_fixed(c, 4, 4);
+		use_fixed(c, 0, 2), use_fixed(c, 1, 2), use_fixed(c, 1, 1);
 	return ST_OK;
 }
 
-/* 508: edges, each with its curves in u, v. */
+/* 508: edges, each with its list and its curves in u, v. */
 static enum status uses_loop(struct iges_cursor *c)
 {
 	int n = iges_count(c, "count", 0, iges_left(c));
 	for (int i = 0; i < n && c->st == ST_OK; i++) {
-		use_fixed(c, 4, 4);
+		use_fixed(c, 1, 2), use_fixed(c, 2, 2);
 		int k = iges_count(c, "count", 0, iges_left(c));
 		for (int j = 0; j < k && c->st == ST_OK; j++)
 			use_fixed(c, 1, 2);
@@ -190,13 +172,18 @@ static enum status load_edges(struct iges *g, int list)
 	return c.st;
 }
 
-/* The curve of edge `index` (from 1) of the list 504. */
-static enum status bound_by_edge(struct iges *g, int surface, int list, int index)
+enum status iges_edge(struct iges *g, int list, int index, int *curve)
 {
 	enum status st = g->edges.list == list ? ST_OK : load_edges(g, list);
-	if (st != ST_OK || index < 1 || index > g->edges.n)
-		return st;
-	return add_bound(g, surface, g->edges.curves[index - 1]);
+	*curve = st == ST_OK && index >= 1 && index <= g->edges.n ? g->edges.curves[index - 1] : 0;
+	return st;
+}
+
+static enum status bound_by_edge(struct iges *g, int surface, int list, int index)
+{
+	int curve;
+	enum status st = iges_edge(g, list, index, &curve);
+	return st == ST_OK ? add_bound(g, surface, curve) : st;
 }
 
 static enum status bound_by_508(struct iges *g, int surface, int de)
@@ -225,6 +212,7 @@ static enum status bounds_list(struct iges_cursor *c, int surface, int n, bound_
 	enum status st = ST_OK;
 	for (int i = 0; i < n && c->st == ST_OK && st == ST_OK; i++) {
 		int de = iges_int(c);
+		use(c->g, de);
 		if (is_plane(c->g, surface) && c->st == ST_OK)
 			st = by(c->g, surface, de);
 		if (st == ST_INPUT)
@@ -238,8 +226,7 @@ static enum status uses_bounded(struct iges_cursor *c)
 {
 	iges_int(c);
 	int surface = iges_int(c), n = iges_count(c, "count", 0, iges_left(c));
-	enum status st = add_face(c->g, surface, c->de, n);
-	return st == ST_OK ? bounds_list(c, surface, n, bound_by_141) : st;
+	return bounds_list(c, surface, n, bound_by_141);
 }
 
 /* 144: surface, has an outer boundary, inner ones; 142 each. */
@@ -247,10 +234,9 @@ static enum status uses_trimmed(struct iges_cursor *c)
 {
 	int surface = iges_int(c), outer = iges_int(c);
 	int n = iges_count(c, "count", 0, iges_left(c));
-	enum status st = add_face(c->g, surface, c->de, n + (outer != 0));
-	if (st == ST_OK && !outer)
+	if (!outer)
 		iges_int(c);
-	return st == ST_OK ? bounds_list(c, surface, n + (outer != 0), bound_by_142) : st;
+	return bounds_list(c, surface, n + (outer != 0), bound_by_142);
 }
 
 /* 510: surface, loops 508. */
@@ -258,8 +244,28 @@ static enum status uses_face(struct iges_cursor *c)
 {
 	int surface = iges_int(c), n = iges_count(c, "count", 0, iges_left(c));
 	iges_int(c);
-	enum status st = add_face(c->g, surface, c->de, n);
-	return st == ST_OK ? bounds_list(c, surface, n, bound_by_508) : st;
+	return bounds_list(c, surface, n, bound_by_508);
+}
+
+/* 186: outer shell, its sense, inner ones; 514: faces with their sense. */
+static void use_pairs(struct iges_cursor *c)
+{
+	int n = iges_count(c, "count", 0, iges_left(c));
+	for (int i = 0; i < n && c->st == ST_OK; i++)
+		use_fixed(c, 0, 1), use_fixed(c, 1, 1);
+}
+
+static enum status uses_solid(struct iges_cursor *c)
+{
+	use_fixed(c, 0, 1), use_fixed(c, 1, 1);
+	use_pairs(c);
+	return ST_OK;
+}
+
+static enum status uses_shell(struct iges_cursor *c)
+{
+	use_pairs(c);
+	return ST_OK;
 }
 
 /* Entities with pointers: to a list that stands first, to parameters from .. to - 1, or by `find`. */
@@ -269,30 +275,19 @@ static const struct {
 	int from, to;
 	enum status (*find)(struct iges_cursor *c);
 } users[] = {
-	{ 102, true, 0, 0, NULL },
-	{ 108, false, 4, 5, NULL },
-	{ 118, false, 0, 2, NULL },
-	{ 120, false, 0, 2, NULL },
-	{ 122, false, 0, 1, NULL },
-	{ 130, false, 0, 1, NULL },
-	{ 141, false, 0, 0, uses_boundary },
-	{ 142, false, 0, 0, uses_curve_on_surface },
-	{ 143, false, 0, 0, uses_bounded },
-	{ 144, false, 0, 0, uses_trimmed },
-	{ 162, false, 0, 1, NULL },
-	{ 164, false, 0, 1, NULL },
-	{ 190, false, 0, 3, NULL },
-	{ 192, false, 0, 2, NULL },
-	{ 194, false, 0, 2, NULL },
-	{ 196, false, 0, 1, NULL },
-	{ 198, false, 0, 2, NULL },
-	{ 220, false, 2, 3, NULL },
-	{ 228, false, 0, 0, uses_symbol },
-	{ 230, false, 0, 0, uses_section },
-	{ 308, false, 0, 0, uses_subfigure },
-	{ 504, false, 0, 0, uses_edges },
-	{ 508, false, 0, 0, uses_loop },
-	{ 510, false, 0, 0, uses_face },
+	{ 102, true, 0, 0, NULL },           { 108, false, 4, 5, NULL },
+	{ 118, false, 0, 2, NULL },          { 120, false, 0, 2, NULL },
+	{ 122, false, 0, 1, NULL },          { 130, false, 0, 1, NULL },
+	{ 141, false, 0, 0, uses_boundary }, { 142, false, 0, 0, uses_curve_on_surface },
+	{ 143, false, 0, 0, uses_bounded },  { 144, false, 0, 0, uses_trimmed },
+	{ 162, false, 0, 1, NULL },          { 164, false, 0, 1, NULL },
+	{ 186, false, 0, 0, uses_solid },    { 190, false, 0, 3, NULL },
+	{ 192, false, 0, 2, NULL },          { 194, false, 0, 2, NULL },
+	{ 196, false, 0, 1, NULL },          { 198, false, 0, 2, NULL },
+	{ 220, false, 2, 3, NULL },          { 228, false, 0, 0, uses_symbol },
+	{ 230, false, 0, 0, uses_section },  { 308, false, 0, 0, uses_subfigure },
+	{ 504, false, 0, 0, uses_edges },    { 508, false, 0, 0, uses_loop },
+	{ 510, false, 0, 0, uses_face },     { 514, false, 0, 0, uses_shell },
 };
 
 static enum status find_of(struct iges *g, int de, size_t row)
