@@ -131,7 +131,7 @@ static void scan_header(struct scanner *p, struct g2_header *h)
 	scan_integer(p, "major version", 0, 9);
 	scan_integer(p, "minor version", 0, 9);
 	h->n_auxiliary = scan_integer(p, "number of auxiliary integers", 0, AUXILIARY_MAX);
-	for (int i = 0; i < h->n_auxiliary; i++) {
+	for (int i = 0; i < h->n_auxiliary && p->st == ST_OK; i++) {
 		int x = scan_integer(p, "auxiliary integer", INT32_MIN, INT32_MAX);
 		if (i < 4)
 			h->auxiliary[i] = x;

@@ -98,6 +98,7 @@ static void faults_are_named(void **state)
 		{ "200 1 0 0\n3 0\n2 2\n0 0 1 1\n99 2\n", "coefficients" },
 		{ "100 1 0 0\n3 0\n2 2\n0 0 1 1\n0 0 0\n1 1 1\nhello\n",
 		  "a.g2:7:1: found 'hello'" },
+		{ "200 1 0 2000000000\n", "found '2000000000', expected number of auxiliary" },
 		{ "250 1 0 0\n3\n", "a Plane is not read" },
 		{ "100 1 0 0\n3 0\n2 2\n0 0 1 -1\n0 0 0\n1 1 1\n", "the curve" },
 	};
