@@ -10,6 +10,11 @@
 
 enum { FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000 };
 
+/* The error goes with the fifth power of the length; a piece whose error should be HOPELESS times the
+ * tolerance is halved untried. */
+#define HALVING_GAIN 32.0
+#define HOPELESS     3.0
+
 struct station {
 	double uv[2], duv[2]; /* unit speed in space */
 	double p[3], dp[3];
@@ -264,8 +269,9 @@ static double tiny_error(const struct follower *w, const struct station *a, cons
 	return level_prove(&w->prover, &x, &mid, &rounding) + 3 * size;
 }
 
+/* expected: what the error should be, from that of a longer piece. */
 static void fit(const struct follower *w, const struct station *a, const struct station *b,
-                int depth)
+                int depth, double expected)
 {
 	double tolerance = w->t->level->tolerance, chord[3];
 	double uv[2] = { 0.5 * (a->uv[0] + b->uv[0]), 0.5 * (a->uv[1] + b->uv[1]) };
@@ -276,9 +282,10 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 	double first = size * 2 / (1 + sqrt(larger(0, (1 + turn) / 2)));
 	struct lengths l = { first, first };
 	/* ends, curve and cubics are in the cell or near it */
-	double error = 2 * w->prover.diameter, rounding = 0;
+	double error = INFINITY, rounding = 0, rough = 2 * w->prover.diameter;
 	struct piece x;
-	if (error > tolerance && turn > 0.3 && dot(chord, a->dp) > 0) {
+	bool hopeless = expected > HOPELESS * tolerance;
+	if (rough > tolerance && !hopeless && turn > 0.3 && dot(chord, a->dp) > 0) {
 		double middle[2];
 		for (int d = 0; d < 2; d++)
 			middle[d] =
@@ -288,27 +295,29 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 			double off = middle_fit(w, a, b, &l, middle, &mid);
 			piece_set(a, b, &l, &x);
 			if (off < tolerance * tolerance)
-				error = smaller(error,
-				                level_prove(&w->prover, &x, &mid, &rounding));
+				error = level_prove(&w->prover, &x, &mid, &rounding);
 			uv[0] = middle[0];
 			uv[1] = middle[1];
 		}
 	}
 	bool tiny = size < 1e-3 * tolerance;
-	if (tiny && error > tolerance)
+	if (tiny && smaller(error, rough) > tolerance)
 		error = smaller(error, tiny_error(w, a, b, size));
 	bool enough = tiny || depth >= FIT_DEPTH_MAX ||
 	              (depth > FIT_DEPTH_EASY && w->t->pieces.n - w->first > PIECES_MAX);
-	if (error <= tolerance + rounding || enough || w->t->failed) {
+	if (smaller(error, rough) <= tolerance + rounding || enough || w->t->failed) {
 		piece_set(a, b, &l, &x);
-		x.error = error;
+		x.error = smaller(error, rough);
 		piece_add(w, &x);
 		return;
 	}
 	struct station s;
 	station_between(w, a, b, uv, &s);
-	fit(w, a, &s, depth + 1);
-	fit(w, &s, b, depth + 1);
+	double next = hopeless          ? expected / HALVING_GAIN
+	              : isfinite(error) ? error / HALVING_GAIN
+	                                : 0;
+	fit(w, a, &s, depth + 1, next);
+	fit(w, &s, b, depth + 1, next);
 }
 
 void level_arc_follow(struct tracer *t, const struct cell_range *box, const double *c, double error,
@@ -329,7 +338,7 @@ void level_arc_follow(struct tracer *t, const struct cell_range *box, const doub
 		station_set(&w, &x, ends[e][0], ends[e][1], &s[e]);
 	}
 	level_prover_init(&w.prover, t, box, c, error);
-	fit(&w, &s[0], &s[1], 0);
+	fit(&w, &s[0], &s[1], 0, 0);
 	struct arc *arc = list_add(&t->arcs, sizeof *arc);
 	if (!arc) {
 		t->failed = true;

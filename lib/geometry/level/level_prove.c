@@ -143,7 +143,7 @@ void level_prover_init(struct prover *p, const struct tracer *t, const struct ce
 	p->second[1] = second[1] / (hu * hv);
 	p->second[2] = second[2] / (hv * hv);
 	p->diameter = p->shape->first[0] * hu + p->shape->first[1] * hv;
-	p->error = t->bound.error + (degree[0] + degree[1] + 8) * 4 * UNIT_ROUNDOFF * t->most;
+	p->error = t->bound.error + (degree[0] + degree[1] + 8) * 4 * UNIT_ROUNDOFF * t->bound.size;
 }
 
 static inline __attribute__((always_inline)) void basis(int n, const lanes *at, lanes *b)
@@ -217,17 +217,22 @@ WIDE static void sample(const struct prover *p, const struct piece *x, const dou
 		for (int d = 0; d < 2; d++)
 			uv[d] = h0 * x->uv[0][d] + h1 * x->uv[1][d] + h2 * x->duv[0][d] -
 			        h3 * x->duv[1][d];
-		if (pm == 3 && pn == 3) {
+		if (pm == 3 && pn == 3 && !p->rational) {
 			basis(3, &uv[0], bu);
 			basis(3, &uv[1], bv);
-			sum_points(p->t->points, 3, 3, p->rational, bu, bv, q);
+			sum_points(p->t->points, 3, 3, false, bu, bv, q);
 		} else {
 			basis(pm, &uv[0], bu);
 			basis(pn, &uv[1], bv);
 			sum_points(p->t->points, pm, pn, p->rational, bu, bv, q);
 		}
-		if (m == 3 && n == 3 && pm == 3 && pn == 3) {
-			sum_field(p->t->field, 3, 3, bu, bv, &f);
+		if (surface->kind == LEVEL_PLANE && !p->t->own_field) {
+			const double *d = l->direction;
+			f = d[0] * q[0] + d[1] * q[1] + d[2] * q[2] + d[3] * q[3];
+		} else if (m == 5 && n == 5) {
+			basis(5, &uv[0], bu);
+			basis(5, &uv[1], bv);
+			sum_field(p->t->field, 5, 5, bu, bv, &f);
 		} else {
 			basis(m, &uv[0], bu);
 			basis(n, &uv[1], bv);
