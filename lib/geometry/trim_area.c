@@ -13,6 +13,8 @@
 
 enum { AREA_DEPTH = 10 };
 
+static const double rounding = 1e-16;
+
 struct cell {
 	double lo[2], hi[2];
 	const int *pieces; /* borrowed: those that may meet it */
@@ -153,7 +155,7 @@ static double area_quartered(struct area *a, const struct cell *c, double whole,
 		cell_select(a, &quarter[i], c, lists + (size_t)i * c->n);
 		sum += part[i] = area_once(a, &quarter[i]);
 	}
-	if (depth == 0 || !(fabs(sum - whole) > tolerance) || a->st != ST_OK) {
+	if (depth == 0 || !(fabs(sum - whole) > tolerance) || !isfinite(sum) || a->st != ST_OK) {
 		a->error += fabs(sum - whole);
 	} else {
 		sum = 0;
@@ -216,7 +218,9 @@ enum status trim_area(const struct trim *t, const struct surface *s, double accu
 	}
 	a.st = ST_OK;
 	double rough = area_spans(&a, breaks, spans, -1, lists);
-	*area = area_spans(&a, breaks, spans, accuracy * rough / spans[0] / spans[1], lists);
+	/* where next to nothing is left, rounding is no reason to go on */
+	double least = fmax(accuracy * rough, rounding * surface_size(s) * surface_size(s));
+	*area = area_spans(&a, breaks, spans, least / spans[0] / spans[1], lists);
 	*error = a.error;
 out:
 	free(breaks[0]);

@@ -293,6 +293,51 @@ static void neighbours_share_a_line(void **state)
 	surface_finish(&s);
 }
 
+/* Loops that do not close, lie anywhere, are of any size: no crash, no hang, and boxes still tell the
+ * truth of their points. */
+static void nonsense_is_survived(void **state)
+{
+	const int order[2] = { 3, 3 }, n[2] = { 4, 4 };
+	struct surface s = shape_surface(order, n, true, KNOTS_UNEVEN, 2);
+	(void)state;
+	for (uint64_t seed = 0; seed < 16; seed++) {
+		uint64_t random = seed;
+		struct trim t = { 0 };
+		for (int i = 0; i < 3; i++) {
+			struct trim_loop l = { .outer = shape_random(&random) < 0.5 };
+			for (int j = 0; j < 3; j++) {
+				struct curve c = any_loop(2 + (int)(seed % 5), 9, j % 2, &random);
+				double big = seed % 4 ? 1 : pow(10, 300 * shape_random(&random));
+				for (int k = 0; k < c.n; k++) {
+					c.points[4 * k] *= big * 2 * shape_random(&random);
+					c.points[4 * k + 1] -= shape_random(&random);
+				}
+				trim_put(&l, c);
+			}
+			trim_close(&t, l);
+		}
+		struct trim_test *x = prepare(&t, &s);
+		double range[2][2], area, error;
+		bool any = trim_test_range(x, range);
+		for (int i = 0; i < 400; i++) {
+			double u = shape_random(&random), v = shape_random(&random);
+			double e = 0.05 * shape_random(&random);
+			int box = trim_test_box(x, (double[2]){ u - e, v - e },
+			                        (double[2]){ u + e, v + e });
+			bool in = trim_test_inside(x, u, v);
+			assert_true(box == 0 || (box > 0) == in);
+			assert_true(!in || (any && u >= range[0][0] && u <= range[0][1] &&
+			                    v >= range[1][0] && v <= range[1][1]));
+		}
+		assert_int_equal(trim_area(&t, &s, 1e-2, &area, &error), ST_OK);
+		enum status st = trim_mend(&t, &s, 1e-6, "nonsense", NULL);
+		assert_true(st == ST_OK || st == ST_INPUT);
+		trim_test_destroy(x);
+		trim_finish(&t);
+	}
+	surface_finish(&s);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -304,6 +349,7 @@ int main(void)
 		cmocka_unit_test(areas_add_up),
 		cmocka_unit_test(area_of_a_cap),
 		cmocka_unit_test(neighbours_share_a_line),
+		cmocka_unit_test(nonsense_is_survived),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
