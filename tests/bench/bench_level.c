@@ -11,15 +11,69 @@ struct row {
 	enum level_kind kind;
 	struct vec3 direction;
 	double value, tolerance;
-	int many; /* planes z = value + k step */
+	int many; /* values value + k step */
 	double step;
 	double target; /* ms */
+	size_t known;  /* pieces, counted elsewhere by changes of sign on a grid */
+	struct vec3 point, eye;
 };
 
 static const struct row rows[] = {
-	{ "50 planes, 1e-6", LEVEL_PLANE, { 0, 0, 1 }, -0.784, 1e-6, 50, 0.032, 30 },
-	{ "50 planes, 1e-4", LEVEL_PLANE, { 0, 0, 1 }, -0.784, 1e-4, 50, 0.032, 18 },
-	{ "silhouette, 1e-6", LEVEL_SILHOUETTE, { 0.8, 0.36, 0.48 }, 0, 1e-6, 1, 0, 4 },
+	{ "50 planes, 1e-6",
+	  LEVEL_PLANE,
+	  { 0, 0, 1 },
+	  -0.784,
+	  1e-6,
+	  50,
+	  0.032,
+	  30,
+	  900,
+	  { 0, 0, 0 },
+	  { 0, 0, 0 } },
+	{ "50 planes, 1e-4",
+	  LEVEL_PLANE,
+	  { 0, 0, 1 },
+	  -0.784,
+	  1e-4,
+	  50,
+	  0.032,
+	  18,
+	  900,
+	  { 0, 0, 0 },
+	  { 0, 0, 0 } },
+	{ "silhouette, 1e-6",
+	  LEVEL_SILHOUETTE,
+	  { 0.8, 0.36, 0.48 },
+	  0,
+	  1e-6,
+	  1,
+	  0,
+	  4,
+	  12,
+	  { 0, 0, 0 },
+	  { 0, 0, 0 } },
+	{ "silhouette from an eye, 1e-6",
+	  LEVEL_EYE,
+	  { 0, 0, 0 },
+	  0,
+	  1e-6,
+	  1,
+	  0,
+	  7,
+	  9,
+	  { 0, 0, 0 },
+	  { 30, 18, 14 } },
+	{ "10 cylinders, 1e-6",
+	  LEVEL_CYLINDER,
+	  { 1, 0, 0 },
+	  0.3,
+	  1e-6,
+	  10,
+	  0.45,
+	  6,
+	  20,
+	  { 0, 5, 0 },
+	  { 0, 0, 0 } },
 	{ "isophote 35 degrees, 1e-6",
 	  LEVEL_ISOPHOTE,
 	  { 0, 0, 1 },
@@ -27,7 +81,10 @@ static const struct row rows[] = {
 	  1e-6,
 	  1,
 	  0,
-	  10 },
+	  10,
+	  85,
+	  { 0, 0, 0 },
+	  { 0, 0, 0 } },
 	{ "isophote 50 degrees, 1e-6",
 	  LEVEL_ISOPHOTE,
 	  { 0, 0, 1 },
@@ -35,7 +92,10 @@ static const struct row rows[] = {
 	  1e-6,
 	  1,
 	  0,
-	  15 },
+	  15,
+	  84,
+	  { 0, 0, 0 },
+	  { 0, 0, 0 } },
 };
 
 static double cpu_ms(void)
@@ -68,12 +128,10 @@ static void sum_add(struct sum *sum, const struct level_result *x)
 		sum->points += x->branches[i].uv.n;
 }
 
-/* From the surface on; what is prepared for the first plane serves all. */
+/* From the surface on; what is prepared for the first value serves all. */
 static enum status run(const struct surface *s, const struct row *row, struct sum *sum)
 {
-	struct level_field field = { .kind = row->kind,
-		                     .direction = row->direction,
-		                     .value = row->value };
+	struct level_field field = { row->kind, row->direction, row->value, row->point, row->eye };
 	struct level *first = NULL;
 	enum status st = level_create(&first, s, &field, row->tolerance, NULL);
 	*sum = (struct sum){ 0 };
@@ -107,10 +165,10 @@ int main(void)
 			ms[k] = cpu_ms() - start;
 		}
 		qsort(ms, RUNS, sizeof *ms, compare);
-		printf("%-28s %4zu pieces, %4zu closed, %zu undecided, error %.2g, length %.9g, "
+		printf("%-28s %4zu pieces (known: %zu), %4zu closed, %zu undecided, error %.2g, length %.9g, "
 		       "%zu points, %.1f ms (target %.0f: %.2f of it)\n",
-		       row->name, sum.branches, sum.closed, sum.undecided, sum.max_error,
-		       sum.length, sum.points, ms[RUNS / 2], row->target,
+		       row->name, sum.branches, row->known, sum.closed, sum.undecided,
+		       sum.max_error, sum.length, sum.points, ms[RUNS / 2], row->target,
 		       ms[RUNS / 2] / row->target);
 	}
 	surface_finish(&s);
