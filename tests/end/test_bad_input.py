@@ -4,7 +4,9 @@ import os
 
 import end
 
-WORKERS = ("shading", "curvature", "isophotes", "raytrace")
+WORKERS = ("contours", "curvature", "isophotes", "raytrace", "reflection", "shading")
+
+RESULTS = (".exr", ".isophote", ".contour", ".reflect", ".csv", ".png", ".svg", ".part")
 
 
 def base_of_sphere(project):
@@ -29,7 +31,7 @@ def broken_files(project):
 
 
 def outputs(project):
-    return {name for name in os.listdir(project.folder) if name.endswith((".exr", ".isophote", ".png", ".svg", ".part"))}
+    return {name for name in os.listdir(project.folder) if name.endswith(RESULTS)}
 
 
 def test_broken_files(project):
@@ -50,6 +52,8 @@ def test_bad_parameters(project):
     for worker, *bad in (("curvature", "--grid", "0x0"), ("curvature", "--grid", "5"), ("curvature", "--nonsense", "1"),
                          ("shading", "--size", "0x100"), ("shading", "--view", "sideways"), ("shading", "--light", "0,0,0"),
                          ("isophotes", "--angle", "200"), ("isophotes", "--tolerance", "0"), ("isophotes", "--tolerance", "x"),
+                         ("contours", "--count", "0"), ("contours", "--plane", "1,0"), ("contours", "--half", "perhaps"),
+                         ("reflection", "--kind", "shine"), ("reflection", "--count", "2000"), ("reflection", "--eye", "x"),
                          ("raytrace", "--threads", "0"), ("raytrace", "--size", "nan")):
         done = project.run(f"batten-{worker}", torus, *bad, status=2)
         assert done.stderr.strip() and not outputs(project), (worker, bad, done.stderr)

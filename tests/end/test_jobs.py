@@ -8,7 +8,9 @@ import end
 
 TORUS = os.path.join(end.EXAMPLES, "torus.igs")
 TEAPOT = os.path.join(end.EXAMPLES, "teapot.igs")
-WORKERS = {"shading": ".shade.exr", "curvature": ".map.exr", "isophotes": ".isophote", "raytrace": ".trace.exr"}
+WORKERS = {"shading": ".shade.exr", "curvature": ".map.exr", "isophotes": ".isophote", "raytrace": ".trace.exr",
+           "contours": ".contour", "reflection": ".reflect"}
+DRAWN = ("isophotes", "contours", "reflection")
 LONG = ("raytrace", TEAPOT, "--size", "3000x3000", "--samples", "4")
 
 
@@ -18,8 +20,8 @@ def start_long(project, **more):
     return job
 
 
-def test_four_workers_at_once(project):
-    ids = {name: project.submit(name, TORUS, *(("--svg",) if name == "isophotes" else ("--png",)))
+def test_all_workers_at_once(project):
+    ids = {name: project.submit(name, TORUS, *(("--svg",) if name in DRAWN else ("--png",)))
            for name in WORKERS}
     project.run("batten", "wait")
     jobs = project.jobs()
