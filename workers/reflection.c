@@ -220,6 +220,19 @@ static enum status reflection_unit(struct work *w, size_t unit)
 	return level_work_unit(&s->level, w, unit);
 }
 
+/* Nothing is silently wrong: curves that miss the tolerance are told of. */
+static void errors_tell(const struct work *w, const struct state *s)
+{
+	double error = 0;
+	for (int i = 0; i < s->n * w->n_surfaces; i++)
+		error = fmax(error, s->level.results[i].max_error);
+	if (error > s->tolerance)
+		report_warning(&w->report,
+		               "some curves are up to %g from the exact ones, more than the "
+		               "tolerance of %g; max_error of each tells which",
+		               error, s->tolerance);
+}
+
 static enum status reflection_finish(struct work *w)
 {
 	struct state *s = w->state;
@@ -233,6 +246,8 @@ static enum status reflection_finish(struct work *w)
 		                  .values = s->numbers,
 		                  .results = s->level.results,
 		                  .n = s->n };
+	if (st == ST_OK)
+		errors_tell(w, s);
 	if (st == ST_OK)
 		st = work_figures(w, level_curves_figures(&c));
 	if (st == ST_OK)
