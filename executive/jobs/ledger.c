@@ -25,7 +25,9 @@ static const char *advice(int code)
 		const char *text;
 	} rows[] = {
 		{ SQLITE_FULL, "; make room on its disk" },
-		{ SQLITE_IOERR, "; see whether its disk is full or failing" },
+		{ SQLITE_IOERR,
+		  "; see that its disk is neither full nor failing and the file and its folder are "
+		  "writable" },
 		{ SQLITE_READONLY, "; make the file and its folder writable" },
 		{ SQLITE_CANTOPEN, "; make its folder writable" },
 		{ SQLITE_PERM, "; make the file and its folder writable" },

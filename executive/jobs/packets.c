@@ -44,7 +44,7 @@ double job_running_s(const struct job *job)
 double job_wall_end(const struct job *job)
 {
 	double limit = job->stats.wall_limit_s;
-	if (!(limit > 0) || job->stats.state != JOB_RUNNING)
+	if (!(limit > 0) || job->stats.state != JOB_RUNNING || job->finished || job->fault)
 		return INFINITY;
 	return job->began + job->stopped_s + job->greeted_s + limit;
 }

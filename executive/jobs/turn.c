@@ -143,7 +143,7 @@ void queue_tick(struct queue *q)
 		q->look_at = INFINITY;
 	for (int i = q->n_active - 1; i >= 0; i--) {
 		struct job *job = q->active[i];
-		if (now >= job_wall_end(job) && !job->finished && !job->fault)
+		if (now >= job_wall_end(job))
 			out_of_time(job);
 		if (now < job->deadline)
 			continue;

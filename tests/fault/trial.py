@@ -27,7 +27,7 @@ KINDS = {
     "trace": ("raytrace", "teapot.igs", ("--size", "400x300", "--samples", "3")),
     "trace2": ("raytrace", "torus.igs", ("--size", "300x250", "--samples", "4", "--threads", "2")),
 }
-DISK_MIB = 96
+DISK_MIB = 256
 GUARD_S = 120
 # Why a job may fail while these faults are about; anything else is untrue.
 REASONS = re.compile("|".join((
@@ -233,7 +233,7 @@ class Trial:
             killed = [j for j, job in self.jobs().items() if job["state"] in ("failed", "killed", "lost")]
             if killed:
                 self.ask("retry", *killed)
-            self.ask("wait", "--timeout", GUARD_S)
+            self.ask("wait", "--timeout", GUARD_S - 20)
             jobs = self.jobs()
             if all(job["state"] == "done" for job in jobs.values()):
                 return jobs

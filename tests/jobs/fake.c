@@ -129,6 +129,13 @@ static void fake_told(void *data, const struct Stats *s)
 	text_addf(&f->log, "told %lld %s;", (long long)s->id, job_state_table[s->state].word);
 }
 
+static int64_t fake_room(void *data, const struct Stats *s)
+{
+	struct fake *f = data;
+	(void)s;
+	return f->room;
+}
+
 static void fake_begin(struct fake *f)
 {
 	struct queue_ports ports = {
@@ -137,6 +144,8 @@ static void fake_begin(struct fake *f)
 		.clock = &f->clock,
 		.told = fake_told,
 		.told_data = f,
+		.room = fake_room,
+		.room_data = f,
 	};
 	assert_int_equal(queue_create(&f->q, &ports, &f->limits), ST_OK);
 	f->sink = queue_sink(f->q);
@@ -167,6 +176,7 @@ void fake_init(struct fake *f)
 		            .hello_grace = 10,
 		            .end_grace = 5 },
 		.now = 100,
+		.room = -1,
 	};
 	fake_begin(f);
 }
@@ -187,23 +197,37 @@ void fake_restart(struct fake *f)
 	fake_begin(f);
 }
 
-int64_t fake_submit(struct fake *f, int priority, int threads, int64_t after)
+static int64_t submit(struct fake *f, struct Stats *s)
 {
-	struct Stats s;
 	struct report_store store;
 	char worker[] = "play", output[] = "/out";
 	int64_t first = 0;
 	report_store_init(&store);
+	s->worker = worker;
+	s->output = output;
+	enum status st = queue_submit(f->q, s, 1, &first, &store.report);
+	queue_turn(f->q);
+	return st == ST_OK ? first : 0;
+}
+
+int64_t fake_submit(struct fake *f, int priority, int threads, int64_t after)
+{
+	struct Stats s;
 	stats_init(&s);
-	s.worker = worker;
-	s.output = output;
 	s.priority = priority;
 	s.threads = threads;
 	s.after = &after;
 	s.n_after = after != 0;
-	enum status st = queue_submit(f->q, &s, 1, &first, &store.report);
-	queue_turn(f->q);
-	return st == ST_OK ? first : 0;
+	return submit(f, &s);
+}
+
+int64_t fake_submit_after_any(struct fake *f, int64_t after)
+{
+	struct Stats s;
+	stats_init(&s);
+	s.after_any = &after;
+	s.n_after_any = 1;
+	return submit(f, &s);
 }
 
 void fake_packet(struct fake *f, int64_t id, enum message_type type, json_t *body)

@@ -23,6 +23,7 @@ struct fake {
 		json_t *record;
 		bool front, killed;
 	} rows[FAKE_ROWS]; /* the ledger, by id */
+	int64_t room;      /* MiB on the disk; -1: not known */
 	int64_t last;
 	int unsynced; /* changes since the last durable write */
 };
@@ -36,6 +37,8 @@ void fake_restart(struct fake *f);
 
 /* Submit one; its id. */
 int64_t fake_submit(struct fake *f, int priority, int threads, int64_t after);
+/* One that waits for the end of another, whatever end that is. */
+int64_t fake_submit_after_any(struct fake *f, int64_t after);
 
 /* A worker's packets and ends, each with the turn that follows. */
 void fake_hello(struct fake *f, int64_t id);

@@ -1,10 +1,13 @@
 /* test_ledger.c - what is written is there, whole, after any end; what cannot be read is said. */
 #include <setjmp.h>
+#include <linux/capability.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -183,6 +186,81 @@ static void what_is_no_ledger_is_refused(void **state)
 	free(path);
 }
 
+/* One record, then a page of the file, is overwritten. */
+static void damage_costs_no_more_than_it_must(void **state)
+{
+	char *path = path_join(*state, "jobs.db");
+	struct ledger l;
+	struct found f = { 0 };
+	struct report_store store;
+	int64_t last;
+	sqlite3 *db;
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	for (int64_t id = 1; id <= 400; id++)
+		assert_int_equal(put(&l, id, JOB_DONE, false), ST_OK);
+	ledger_close(&l);
+	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+	assert_int_equal(
+	        sqlite3_exec(db, "UPDATE jobs SET record='{' WHERE id=7", NULL, NULL, NULL),
+	        SQLITE_OK);
+	sqlite3_close(db);
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	assert_int_equal(l.load(l.data, find, &f, &last, NULL), ST_OK);
+	assert_int_equal(f.n, 400);
+	assert_int_equal(f.ids[6], 7);
+	assert_int_equal(f.states[6], JOB_LOST);
+	assert_int_equal(f.states[7], JOB_DONE);
+	ledger_close(&l);
+
+	FILE *file = fopen(path, "r+");
+	assert_non_null(file);
+	for (long at = 4096; at < 40000; at += 4096) {
+		fseek(file, at, SEEK_SET);
+		for (int i = 0; i < 200; i++)
+			fputc('x', file);
+	}
+	fclose(file);
+	report_store_init(&store);
+	f.n = 0;
+	enum status st = ledger_open(&l, path, &store.report);
+	if (st == ST_OK) {
+		st = l.load(l.data, find, &f, &last, &store.report);
+		ledger_close(&l);
+	}
+	assert_int_equal(st, ST_RESOURCE);
+	assert_non_null(strstr(store.error, "move it away"));
+	free(path);
+}
+
+/* In a child that permissions hold, whoever runs the test. */
+static void a_ledger_that_may_not_be_written_says_so(void **state)
+{
+	char *path = path_join(*state, "jobs.db");
+	struct ledger l;
+	int status;
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	ledger_close(&l);
+	assert_int_equal(chmod(path, 0400), 0);
+	assert_int_equal(chmod(*state, 0500), 0);
+	pid_t child = fork();
+	if (child == 0) {
+		struct __user_cap_header_struct head = { .version = _LINUX_CAPABILITY_VERSION_3 };
+		struct __user_cap_data_struct none[2] = { 0 };
+		struct report_store store;
+		report_store_init(&store);
+		syscall(SYS_capset, &head, none);
+		enum status st = ledger_open(&l, path, &store.report);
+		struct ledger_change drop = { .id = 1 };
+		if (st == ST_OK) /* what is there can still be read */
+			st = l.write(l.data, &drop, 1, false, &store.report);
+		_exit(st != ST_RESOURCE || !strstr(store.error, "writable"));
+	}
+	assert_int_equal(waitpid(child, &status, 0), child);
+	assert_int_equal(chmod(*state, 0700), 0);
+	assert_int_equal(status, 0);
+	free(path);
+}
+
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
 int main(void)
@@ -192,6 +270,8 @@ int main(void)
 		T(a_crash_loses_nothing_acknowledged),
 		T(a_batch_is_written_whole_or_not_at_all),
 		T(what_is_no_ledger_is_refused),
+		T(damage_costs_no_more_than_it_must),
+		T(a_ledger_that_may_not_be_written_says_so),
 	};
 	return cmocka_run_group_tests_name("ledger", tests, NULL, NULL);
 }

@@ -1,0 +1,62 @@
+"""What a long night of jobs wants: a hook at the ends, limits, dependencies, the top, a unit for systemd."""
+import os
+
+import end
+
+TORUS = os.path.join(end.EXAMPLES, "torus.igs")
+TEAPOT = os.path.join(end.EXAMPLES, "teapot.igs")
+LONG = ("raytrace", TEAPOT, "--size", "3000x3000", "--samples", "4")
+
+
+def lines(path):
+    return open(path).read().splitlines() if os.path.exists(path) else []
+
+
+def test_the_hook_runs_at_the_end_of_each_job_and_of_the_group(project):
+    said = project.path("said")
+    project.run("batten", "config", "hook", f'echo "$BATTEN_EVENT $BATTEN_JOB $BATTEN_STATE $BATTEN_GROUP" >>{said}')
+    ids = project.submit("shading", TORUS, "--size", "16x16", "-o", "a", "--group", "g")
+    ids += project.submit("shading", TORUS, "--size", "16x16", "-o", "b", "--group", "g", "--after", ids[0])
+    project.run("batten", "wait", *ids)
+    end.until(lambda: len(lines(said)) >= 4 or any(l.startswith("group") for l in lines(said)[2:]), "the hook ran")
+    found = lines(said)
+    assert {f"job {ids[0]} done g", f"job {ids[1]} done g", f"group {ids[1]} done g"} <= set(found), found
+
+
+def test_a_job_over_its_wall_time_fails(project):
+    (job,) = project.submit(*LONG, "--wall", "0.3")
+    project.run("batten", "wait", job, status=1)
+    j = project.jobs()[job]
+    assert j["state"] == "failed" and "limit of 0.3 s" in j["reason"], j
+
+
+def test_after_any_end(project):
+    (job,) = project.submit(*LONG)
+    (later,) = project.submit("shading", TORUS, "--size", "16x16", "--after", f"{job}:any")
+    project.run("batten", "kill", job)
+    project.run("batten", "wait", later)
+    assert project.jobs()[later]["state"] == "done"
+    project.run("batten", "submit", "shading", TORUS, "--after", f"{job}:some", status=2)
+    project.run("batten", "retry", "--all")
+    assert project.jobs()[job]["state"] == "killed"
+
+
+def test_no_job_starts_where_its_output_cannot_fit(project):
+    project.run("batten", "config", "disk-floor", str(1 << 30))
+    (job,) = project.submit("shading", TORUS, "--size", "16x16")
+    j = project.jobs()[job]
+    assert j["state"] == "queued" and "make room" in j["reason"], j
+
+
+def test_a_unit_for_systemd(project):
+    path = project.run("batten", "serve", "--at-login").stdout.strip()
+    text = open(path).read()
+    assert f"WorkingDirectory={project.folder}\n" in text and f'ExecStart="{end.BATTEN}" serve\n' in text, text
+    link = os.path.join(os.path.dirname(path), "default.target.wants", os.path.basename(path))
+    assert os.path.realpath(link) == os.path.realpath(path)
+    project.run("batten", "serve", "--not-at-login")
+    assert not os.path.exists(path) and not os.path.lexists(link)
+    project.run("batten", "serve", "--not-at-login", status=1)
+
+
+end.main()
