@@ -43,11 +43,11 @@ struct patch_shape {
 	double weight[2], radius, first[2], second[3];
 };
 
-/* Chebyshev's nodes, Hermite's polynomials there, and the cosines that take values in the nodes to
+/* Chebyshev's nodes, Hermite's polynomials there (four of four nodes), and the cosines that take values in the nodes to
  * coefficients. */
 enum { PROOF_NODES = 16 };
 struct proof_tables {
-	double t[PROOF_NODES], h[PROOF_NODES][4], cosine[PROOF_NODES][PROOF_NODES / 2];
+	double t[PROOF_NODES], h[PROOF_NODES / 4][4][4], cosine[PROOF_NODES][PROOF_NODES / 2];
 };
 
 /* What does not depend on the value: net, normals, edges. */

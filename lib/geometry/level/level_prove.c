@@ -26,10 +26,11 @@ void level_proof_tables(struct proof_tables *p)
 	for (int j = 0; j < NODES; j++) {
 		double t = 0.5 - 0.5 * cos(M_PI * (j + 0.5) / NODES), s = 1 - t;
 		p->t[j] = t;
-		p->h[j][0] = s * s * (1 + 2 * t);
-		p->h[j][1] = t * t * (1 + 2 * s);
-		p->h[j][2] = t * s * s;
-		p->h[j][3] = -t * t * s;
+		double(*h)[LANES] = p->h[j / LANES];
+		h[0][j % LANES] = s * s * (1 + 2 * t);
+		h[1][j % LANES] = t * t * (1 + 2 * s);
+		h[2][j % LANES] = t * s * s;
+		h[3][j % LANES] = -t * t * s;
 	}
 	for (int k = 0; k < NODES; k++)
 		for (int j = 0; j < HALF; j++)
@@ -66,35 +67,31 @@ static void second_bounds(const double *c, int m, int n, double error, double ou
 	out[2] = (vv + 4 * error) * n * (n - 1);
 }
 
-/* Largest differences of the patch's points from the first, i times in u and j times in v; [3]: of
- * the weights. */
-static void differences(const double *c, int m, int n, int i, int j, double out[2])
+/* Largest derivative of forms y (three components and a weight), i times in u and j times in v, each
+ * taken as a sum of four coefficients; [1]: of the weight. */
+WIDE static void derivative_most(const lanes *y, int m, int n, int i, int j, double out[2])
 {
-	static const double times[3][3] = { { 1, 0, 0 }, { -1, 1, 0 }, { 1, -2, 1 } };
-	size_t row = (size_t)4 * (n + 1);
-	double factor =
-	        (i > 0 ? m : 1.0) * (i > 1 ? m - 1 : 1) * (j > 0 ? n : 1) * (j > 1 ? n - 1 : 1);
-	out[0] = out[1] = 0;
+	size_t row = (size_t)n + 1, du = i > 0 ? row : 0, dv = j > 0 ? 1 : 0;
+	bool mixed = i == 1 && j == 1, twice = i == 2 || j == 2;
+	size_t step = du + dv, second = mixed ? du : twice ? step : 0;
+	size_t third = mixed ? dv : twice ? 2 * step : step;
+	double middle = mixed || twice ? -1 : 0;
+	size_t last = mixed ? step : twice ? step : 0;
+	double first = i + j == 0 ? 0 : i + j == 1 ? -1 : 1, end = mixed ? 1 : twice ? -1 : 0;
+	double third_by = mixed ? -1 : 1, most = 0, weight = 0;
 	for (int a = 0; a <= m - i; a++)
 		for (int b = 0; b <= n - j; b++) {
-			const double *x = c + row * a + (size_t)4 * b;
-			lanes sum = { 0 };
-			for (int k = 0; k <= i; k++)
-				for (int l = 0; l <= j; l++) {
-					lanes y;
-					memcpy(&y, x + row * k + (size_t)4 * l, sizeof y);
-					sum += times[i][k] * times[j][l] * y;
-				}
-			double r = 0, w = sum[3];
-			for (int d = 0; d < 3; d++) {
-				double y = sum[d] - c[d] / c[3] * w;
-				r += y * y;
-			}
-			out[0] = larger(out[0], r);
-			out[1] = larger(out[1], fabs(w));
+			const lanes *x = y + row * a + b;
+			lanes sum = first * x[0] + middle * x[second] + third_by * x[third] +
+			            end * x[last];
+			lanes square = sum * sum;
+			most = larger(most, square[0] + square[1] + square[2]);
+			weight = larger(weight, square[3]);
 		}
-	out[0] = factor * sqrt(out[0]);
-	out[1] *= factor;
+	double factor =
+	        (i > 0 ? m : 1.0) * (i > 1 ? m - 1 : 1) * (j > 0 ? n : 1) * (j > 1 ? n - 1 : 1);
+	out[0] = factor * sqrt(most);
+	out[1] = factor * sqrt(weight);
 }
 
 /*
@@ -112,15 +109,20 @@ void level_shape_of_patch(const double *c, int m, int n, struct patch_shape *out
 		out->weight[1] = larger(out->weight[1], c[4 * i + 3]);
 	}
 	double w = out->weight[0];
-	differences(c, m, n, 0, 0, y);
+	lanes from[ORDER_MAX * ORDER_MAX];
+	for (size_t i = 0; i < points; i++) {
+		const double *p = c + 4 * i, r = p[3] / c[3];
+		from[i] = (lanes){ p[0] - c[0] * r, p[1] - c[1] * r, p[2] - c[2] * r, p[3] };
+	}
+	derivative_most(from, m, n, 0, 0, y);
 	out->radius = y[0] / w;
 	for (int d = 0; d < 2; d++) {
-		differences(c, m, n, d == 0, d == 1, first[d]);
+		derivative_most(from, m, n, d == 0, d == 1, first[d]);
 		out->first[d] = (first[d][0] + first[d][1] * out->radius) / w;
 	}
 	for (int g = 0; g < 3; g++) {
 		int a = g == 2, b = g > 0;
-		differences(c, m, n, by[g][0], by[g][1], second);
+		derivative_most(from, m, n, by[g][0], by[g][1], second);
 		out->second[g] = (second[0] + first[a][1] * out->first[b] +
 		                  first[b][1] * out->first[a] + second[1] * out->radius) /
 		                 w;
@@ -238,13 +240,16 @@ WIDE static void sample(const struct prover *p, const struct piece *x, const dou
 			basis(n, &uv[1], bv);
 			sum_field(p->t->field, m, n, bu, bv, &f);
 		}
+		lanes h[4];
+		memcpy(h, surface->proof.h[g / LANES], sizeof h);
+		for (int d = 0; d < 3; d++) {
+			lanes at = h[0] * x->p[0][d] + h[1] * x->p[1][d] + h[2] * x->dp[0][d] +
+			           h[3] * x->dp[1][d];
+			q[d] = at * q[3] - q[d];
+		}
 		for (int k = 0; k < LANES; k++) {
-			const double *h = surface->proof.h[g + k];
-			for (int d = 0; d < 3; d++) {
-				double at = h[0] * x->p[0][d] + h[1] * x->p[1][d] +
-				            h[2] * x->dp[0][d] + h[3] * x->dp[1][d];
-				out[g + k][d] = at * q[3][k] - q[d][k];
-			}
+			for (int d = 0; d < 3; d++)
+				out[g + k][d] = q[d][k];
 			out[g + k][3] = f[k];
 		}
 	}
