@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""Run the benchmarks of a build folder and write docs/benchmarks.md: report.py BUILD [--kept].
+
+With --kept the last run's results are taken, nothing is run. The benchmarks should have the machine
+to themselves; where they do not, their figures are CPU time and what depends on the clock says so.
+"""
+import json
+import os
+import platform
+import re
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PEERS = ["libsisl-dev", "libocct-modeling-algorithms-dev", "libembree-dev", "povray"]
+
+# Rows of benchmarks that print sentences: pattern, row, name, unit, target, less is better.
+SENTENCES = [
+    (r"^(50 planes, 1e-6) .*, ([\d.]+) ms", "10", "ms", 30, True),
+    (r"^(50 planes, 1e-4) .*, ([\d.]+) ms", "11", "ms", 18, True),
+    (r"^(silhouette, 1e-6) .*, ([\d.]+) ms", "14", "ms", 4, True),
+    (r"^(isophote 35 degrees, 1e-6) .*, ([\d.]+) ms", "15", "ms", 10, True),
+    (r"^(1000 jobs that do nothing), .*ratio ([\d.]+)", "jobs", "x xargs -P2", 3, True),
+    (r"^(submit to HELLO): ([\d.]+) ms", "jobs", "ms", 10, True),
+    (r"^(suspend): ([\d.]+) ms", "jobs", "ms", 10, True),
+    (r"^(packets from one worker), .*: (\d+) a second", "jobs", "/s", 200000, False),
+    (r"^(10,000 queued jobs: .*listed) in ([\d.]+) ms", "jobs", "ms", 100, True),
+    (r"^(idle service with one client): ([\d.]+) %", "jobs", "% of a core", 0.1, True),
+    (r"^(state change in the ledger): ([\d.]+) us", "jobs", "us", 500, True),
+]
+
+# What is known of why a row may not be met: pattern of its name, and the reason.
+REASONS = [
+    (r"a ray a call", "One ray goes through the code of a packet of 16, fifteen lanes of which are empty; a leaf would "
+     "have to be met with the coefficients of the patch as lanes."),
+]
+BUSY = 1.3  # wall / CPU above which the machine was not alone
+
+
+def read(path):
+    with open(path, encoding="utf-8") as f:
+        return f.read()
+
+
+def run_benchmarks(build):
+    # output in full, one at a time: two would disturb each other
+    subprocess.run(["meson", "test", "-C", build, "--benchmark", "--num-processes", "1", "--logbase", "benchmarks"],
+                   check=False)
+
+
+def outputs(build):
+    """Name and standard output of each benchmark of the last run."""
+    found = []
+    for line in read(os.path.join(build, "meson-logs", "benchmarks.json")).splitlines():
+        test = json.loads(line)
+        found.append((test["name"].split(" / ")[-1], test["result"], test.get("stdout") or ""))
+    return sorted(found)
+
+
+def machine():
+    model = re.search(r"model name\s*: (.*)", read("/proc/cpuinfo"))
+    cc = subprocess.run(["cc", "--version"], capture_output=True, text=True, check=False).stdout.splitlines()
+    yield f"{model.group(1) if model else platform.machine()}, {os.cpu_count()} processors"
+    yield f"{platform.system()} {platform.release()}, {cc[0] if cc else 'unknown compiler'}"
+    for name in PEERS:
+        r = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", name], capture_output=True, text=True,
+                           check=False)
+        if r.returncode == 0:
+            yield f"{name} {r.stdout}"
+
+
+def rows_of(text):
+    """Rows as [row, what, ours, target, peers, ratio, met] from one benchmark's output."""
+    for line in text.splitlines():
+        if line.startswith("row "):
+            yield [c.strip() for c in line[4:].split("|")]
+            continue
+        for pattern, row, unit, target, less in SENTENCES:
+            m = re.match(pattern, line)
+            if m:
+                value = float(m.group(2))
+                met = value <= target if less else value >= target
+                yield [row, m.group(1), f"{value:g} {unit}", f"{'<=' if less else '>='} {target}", "", "",
+                       "met" if met else "not met"]
+
+
+def reason(what):
+    return next((text for pattern, text in REASONS if re.search(pattern, what)), "")
+
+
+def order(row):
+    return (0, int(row[0]), "") if row[0].isdigit() else (1, 0, row[0])
+
+
+def page(build):
+    runs = outputs(build)
+    rows = sorted((r for _, _, text in runs for r in rows_of(text)), key=order)
+    out = ["# Benchmarks", "",
+           "Made by `tests/bench/report.py BUILD`, which runs `meson test --benchmark`. Medians; sides of a comparison take",
+           "turns in one run. Rates and times are CPU time of one thread unless a row says otherwise. The ratio is that to the",
+           "better peer, above 1 where batten is ahead. Products and sums fuse in the kernels (`-ffp-contract=fast`); nothing",
+           "is compiled with `-ffast-math`. One program holds kernels for several vector levels and chooses while running.", ""]
+    out += [f"- {line}" for line in machine()]
+    level = next((m.group(1) for _, _, t in runs for m in [re.search(r"vector level (\S+),", t)] if m), None)
+    if level:
+        out.append(f"- vector level {level}")
+    waits = [float(x) for _, _, t in runs for x in re.findall(r"wall / CPU ([\d.]+)", t)]
+    if waits and sorted(waits)[len(waits) // 2] > BUSY:
+        out += ["", f"The machine was busy with other work in this run (wall / CPU up to {max(waits):.1f}). What goes by the",
+                "clock (row 22, the jobs) is worse than on an idle one, and CPU times are, too, where two processors share a",
+                "core. What a second thread or process brings is given by CPU time: that work divides without more of it, not",
+                "that nothing waits; the clock's figures stand below."]
+    out += ["", "| row | what | batten | target | peers | ratio | |", "| --- | --- | --- | --- | --- | --- | --- |"]
+    out += ["| " + " | ".join(r) + " |" for r in rows]
+    missed = [r for r in rows if r[6] == "not met"]
+    if missed:
+        out += ["", "## Not met", ""]
+        out += [f"- {r[1]}: {r[2]}, target {r[3]}. {reason(r[1])}".rstrip() for r in missed]
+    out += ["", "## What the benchmarks said beside it", ""]
+    for name, result, text in runs:
+        rest = [line for line in text.splitlines() if line.strip() and not line.startswith("row ")]
+        out += [f"{name}{'' if result == 'OK' else ' (' + result + ')'}:", "", "```", *rest, "```", ""]
+    return "\n".join(out).rstrip() + "\n"
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    if "--kept" not in sys.argv:
+        run_benchmarks(sys.argv[1])
+    with open(os.path.join(ROOT, "docs", "benchmarks.md"), "w", encoding="utf-8") as f:
+        f.write(page(sys.argv[1]))
+
+
+main()
