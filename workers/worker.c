@@ -1,4 +1,5 @@
 /* worker.c - the main that all workers share: by hand, under the executive, or a description. */
+#include <malloc.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,10 +8,6 @@
 
 #include "json.h"
 #include "worker_private.h"
-
-/* OpenBLAS, where the worker has it: its own threads would make results depend on how many there
- * are, and they would come on top of ours. */
-__attribute__((weak)) void openblas_set_num_threads(int n);
 
 static const int watched[] = { SIGINT, SIGTERM, SIGHUP, SIGCONT };
 
@@ -105,8 +102,9 @@ int main(int argc, char **argv)
 	report_store_init(&said);
 	signal(SIGPIPE, SIG_IGN);
 	signal(SIGXFSZ, SIG_IGN); /* a file grown too large is a write that fails */
-	if (openblas_set_num_threads)
-		openblas_set_num_threads(1);
+	/* tiles come and go: their memory is kept, not given back and asked for again page by page */
+	mallopt(M_TRIM_THRESHOLD, 64 << 20);
+	mallopt(M_MMAP_THRESHOLD, 32 << 20);
 	enum status st = options_parse(&t, argc, argv, &mode, &said.report);
 	if (st != ST_OK) {
 		fprintf(stderr, "%s: %s\n", name, *said.error ? said.error : status_text(st));
