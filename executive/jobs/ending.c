@@ -97,7 +97,6 @@ static void leave_process(struct job *job)
 	job_times(job);
 	job->process = false;
 	job->deadline = INFINITY;
-	job->news = false;
 	job->stats.pid = 0;
 	job->stats.eta_s = NAN;
 	if (isfinite(job->exit.cpu_s))

@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "fake.h"
+#include "job.h"
 
 static int set_up(void **state)
 {
@@ -355,6 +356,23 @@ static void a_batch_is_queued_whole_or_not_at_all(void **state)
 	assert_string_equal(fake_reason(f, 2), "after 1");
 }
 
+/* The list of changes has room for each job once: progress that waits to be told is in it already. */
+static void a_job_is_among_the_changed_once(void **state)
+{
+	struct fake *f = *state;
+	for (int i = 0; i < 40; i++) {
+		int64_t id = fake_submit(f, 0, 1, 0);
+		fake_hello(f, id);
+		for (int done = 0; done < 2; done++)
+			fake_packet(f, id, MESSAGE_PROGRESS,
+			            json_pack("{s:i, s:i}", "done", done, "total", 2));
+		assert_int_equal(f->q->n_changed, 1);
+		fake_exit(f, id, 1, 0);
+		fake_eof(f, id);
+		assert_int_equal(f->q->n_changed, 0);
+	}
+}
+
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
 int main(void)
@@ -375,6 +393,7 @@ int main(void)
 		T(floods_break_only_their_own_job),
 		T(forgets_only_what_has_ended),
 		T(a_batch_is_queued_whole_or_not_at_all),
+		T(a_job_is_among_the_changed_once),
 	};
 	return cmocka_run_group_tests_name("queue", tests, NULL, NULL);
 }
