@@ -2,6 +2,7 @@
 #include "batch.h"
 
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include "file.h"
 
@@ -30,6 +31,10 @@ static enum status batch_add_file(struct batch *b, const char *path, const struc
 {
 	char *text;
 	size_t n;
+	struct stat s;
+	/* the loop must not wait for what is no file */
+	if (!stat(path, &s) && !S_ISREG(s.st_mode))
+		return report_error(r, ST_INPUT, "cannot read jobs from '%s': it is no file", path);
 	enum status st = file_read(path, JOBS_FILE_MAX, &text, &n, r);
 	if (st != ST_OK)
 		return st;

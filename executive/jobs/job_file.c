@@ -76,6 +76,8 @@ enum status job_file_write(const char *path, const struct project *p, const stru
 	enum status st = ST_OK;
 	size_t n = strlen(text);
 	int fd = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+	if (fd >= 0)
+		errno = ENOSPC; /* a short write does not say why */
 	if (fd < 0 || write(fd, text, n) != (ssize_t)n)
 		st = report_error(r, ST_RESOURCE, "cannot write the job file '%s': %s", path,
 		                  strerror(errno));

@@ -94,6 +94,7 @@ enum status lock_take(const struct project *p, bool wait, int *fd, const struct 
 		gethostname(host, sizeof host - 1);
 		int n = snprintf(who, sizeof who, "host %s, process %ld\n%s\n", host,
 		                 (long)getpid(), p->socket);
+		errno = ENOSPC; /* a short write does not say why */
 		if (ftruncate(*fd, 0) || pwrite(*fd, who, (size_t)n, 0) != n)
 			st = report_error(r, ST_RESOURCE, "cannot write '%s': %s", path,
 			                  strerror(errno));

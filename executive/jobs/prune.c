@@ -1,5 +1,6 @@
 /* prune.c - take away the files in .batten/ that belong to no job. */
 #include <dirent.h>
+#include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -99,4 +100,5 @@ void prune_files(const struct project *p, struct queue *q)
 	if (inputs_gather(&k))
 		folder_prune(p, "inputs", &k, keeps_input);
 	free(k.inputs);
+	malloc_trim(0); /* the records that went */
 }

@@ -136,6 +136,11 @@ static enum status job_submitted(struct job *job, const struct Stats *given, int
 	if (st != ST_OK)
 		return report_error(r, st, "cannot submit: out of memory");
 	stats_drop_outputs(s);
+	char **own[] = { &s->host, &s->reason, &s->phase, &s->log };
+	for (size_t k = 0; k < sizeof own / sizeof *own; k++) {
+		free(*own[k]);
+		*own[k] = NULL;
+	}
 	s->id = first + i;
 	s->state = JOB_QUEUED;
 	s->done = s->total = s->pid = 0;

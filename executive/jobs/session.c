@@ -1,4 +1,5 @@
 /* session.c - a connection from a client: its packets in and out. */
+#include <malloc.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,15 +9,18 @@
 #include "json.h"
 #include "server.h"
 
-enum { READ_BYTES = 65536 };
+enum { READ_BYTES = 65536, TRIM_BYTES = 1 << 20 };
 
 static void on_closed(uv_handle_t *h)
 {
 	struct session *c = h->data;
+	bool large = c->out.cap + c->flying.cap > TRIM_BYTES;
 	message_reader_finish(&c->reader);
 	text_finish(&c->out);
 	text_finish(&c->flying);
 	free(c);
+	if (large)
+		malloc_trim(0); /* or the service stays as large as it once was */
 }
 
 void session_close(struct session *c)

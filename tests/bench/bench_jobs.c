@@ -15,7 +15,8 @@
 #include "path.h"
 #include "text.h"
 
-enum { JOBS = 1000, LIST = 10000, RUNS = 31, PACKETS = 400000, WRITES = 300 };
+enum { JOBS = 1000, LIST = 10000, RUNS = 31, PACKETS = 400000, WRITES = 300, CLIENTS = 100 };
+enum { ENDED = 100000, ROUNDS = 5 };
 
 static double now(void)
 {
@@ -198,6 +199,115 @@ static void durable_change(void)
 	place_finish(&p);
 }
 
+/* Resident memory of a process, MiB. */
+static double memory_of(pid_t pid)
+{
+	char path[64];
+	long pages = 0;
+	snprintf(path, sizeof path, "/proc/%ld/statm", (long)pid);
+	FILE *f = fopen(path, "r");
+	if (!f || fscanf(f, "%*d %ld", &pages) != 1)
+		exit(1);
+	fclose(f);
+	return (double)pages * (double)sysconf(_SC_PAGESIZE) / (1 << 20);
+}
+
+static double list_all(struct client *c)
+{
+	double began = now();
+	client_request(c, MESSAGE_LIST, json_pack("{s:b}", "all", 1), NULL, NULL, NULL, NULL);
+	return now() - began;
+}
+
+/* A hundred clients watch ten thousand jobs and ask, all at once. */
+static void hundred_clients(void)
+{
+	struct place p;
+	struct client *c[CLIENTS];
+	bool ended = false, gone = false;
+	double t[CLIENTS];
+	place_init(&p, "BATTEN_JOBS=1");
+	int64_t id = place_submit(&p, "stubborn", 0, NULL);
+	place_until(&p, id, JOB_RUNNING);
+	submit_many(&p, "nothing", LIST);
+	double before = memory_of(p.service), began = now();
+	for (int i = 0; i < CLIENTS; i++)
+		if (client_connect(&c[i], &p.project, false, NULL) != ST_OK ||
+		    client_send(c[i], MESSAGE_LIST, json_object(), NULL) != ST_OK)
+			exit(1);
+	for (int i = 0; i < CLIENTS; i++, ended = false) {
+		while (!ended && !gone)
+			client_listen(c[i], 1000, -1, NULL, NULL, &ended, &gone, NULL);
+		t[i] = now() - began;
+	}
+	double most = memory_of(p.service);
+	for (int i = 0; i < CLIENTS; i++)
+		client_close(c[i]);
+	list_all(p.client);
+	printf("100 clients list 10,000 jobs at once: the first in %.0f ms, all in %.2f s%s; memory "
+	       "of the service %.1f MiB before, %.1f at most, %.1f after\n",
+	       t[0] * 1e3, t[CLIENTS - 1], gone ? " (some were let go)" : "", before, most,
+	       memory_of(p.service));
+	client_request(p.client, MESSAGE_KILL, json_pack("{s:s}", "group", "many"), NULL, NULL,
+	               NULL, NULL);
+	kill(place_job(&p, id)->pid, SIGKILL);
+	place_end(&p, id);
+	place_finish(&p);
+}
+
+/* A ledger as a year leaves it. */
+static void ended_write(const struct place *p)
+{
+	static struct ledger_change c[ENDED];
+	static struct Stats s[ENDED];
+	struct ledger l;
+	char *path = path_join(p->project.hidden, "jobs.db");
+	char worker[] = "nothing", name[] = "hull.igs", output[] = "/tmp/none";
+	for (int i = 0; i < ENDED; i++) {
+		stats_init(&s[i]);
+		s[i].id = i + 1;
+		s[i].state = JOB_DONE;
+		s[i].worker = worker;
+		s[i].file_name = name;
+		s[i].output = output;
+		s[i].ended = 1000;
+		c[i] = (struct ledger_change){ .id = i + 1, .stats = &s[i] };
+	}
+	if (ledger_open(&l, path, NULL) != ST_OK || l.write(l.data, c, ENDED, false, NULL) != ST_OK)
+		exit(1);
+	ledger_close(&l);
+	free(path);
+}
+
+static void many_ended(void)
+{
+	struct place p;
+	place_init(&p, "BATTEN_JOBS=2 BATTEN_NICE=0");
+	place_crash(&p);
+	ended_write(&p);
+	double start = now();
+	place_connect(&p);
+	start = now() - start;
+	double all = list_all(p.client), first = memory_of(p.service), began = now();
+	client_request(p.client, MESSAGE_LIST, json_object(), NULL, NULL, NULL, NULL);
+	double recent = now() - began;
+	began = now();
+	client_request(p.client, MESSAGE_PRUNE, json_object(), NULL, NULL, NULL, NULL);
+	printf("100,000 ended jobs: service starts in %.0f ms, lists all in %.0f ms, those of the last "
+	       "hour in %.1f ms, prunes in %.0f ms; memory %.1f MiB\n",
+	       start * 1e3, all * 1e3, recent * 1e3, (now() - began) * 1e3, first);
+	printf("memory of the service, after each 1000 jobs run and pruned:");
+	for (int i = 0; i < ROUNDS; i++) {
+		submit_many(&p, "nothing", JOBS);
+		client_request(p.client, MESSAGE_WAIT, json_pack("{s:s}", "group", "many"), NULL,
+		               NULL, NULL, NULL);
+		client_request(p.client, MESSAGE_PRUNE, json_object(), NULL, NULL, NULL, NULL);
+		printf(" %.1f", memory_of(p.service));
+	}
+	printf(" MiB\n");
+	place_finish(&p);
+}
+
 int main(void)
 {
 	signal(SIGPIPE, SIG_IGN);
@@ -207,5 +317,7 @@ int main(void)
 	packets();
 	long_list_and_rest();
 	durable_change();
+	hundred_clients();
+	many_ended();
 	return 0;
 }

@@ -15,7 +15,7 @@ import traceback
 import faults
 import trial as place
 
-SMALL, LONG = (3, 6.0), (40, 12.0)  # seeds, seconds of faults each
+SMALL, LONG = (2, 5.0), (40, 12.0)  # seeds, seconds of faults each
 
 
 def harm(t, seconds):

@@ -31,7 +31,7 @@ DISK_MIB = 256
 GUARD_S = 120
 # Why a job may fail while these faults are about; anything else is untrue.
 REASONS = re.compile("|".join((
-    "killed from outside", "ended by signal 15", "No space left", "disk is full", "Read-only", "Permission denied", "Is a directory",
+    "killed from outside", "ended by signal 15", "does not take START", "No space left", "disk is full", "Read-only", "Permission denied", "Is a directory",
     "File too large", "stopped from outside", "is full", "no HELLO", "file size", "killed by you", "in use",
     "did not end within", "may not be written", "closed its pipe", "not run: job [0-9]+", "times; 'batten retry",
 )))
@@ -227,13 +227,13 @@ class Trial:
 
     def recover(self):
         """The faults are over: all jobs must come to their end, and what failed when tried again."""
-        for _ in range(4):
+        for _ in range(6):
             for verb in ("release", "activate", "retry"):
                 self.ask(verb, "--all")
             killed = [j for j, job in self.jobs().items() if job["state"] in ("failed", "killed", "lost")]
             if killed:
                 self.ask("retry", *killed)
-            self.ask("wait", "--timeout", GUARD_S - 20)
+            self.ask("wait", "--timeout", 20)
             jobs = self.jobs()
             if all(job["state"] == "done" for job in jobs.values()):
                 return jobs
