@@ -15,7 +15,8 @@ bool iges_recognise(const char *bytes, size_t n);
 enum status iges_parse(struct model *m, const char *bytes, size_t n, const char *name,
                        const struct progress *p, const struct report *r);
 
-/* The surfaces and curves of a model as entities 128 and 126, each the part that its domain means.
+/* The surfaces and curves of a model as entities 128 (with trims: 144 on it) and 126, each the part
+ * that its domain means.
  * No time, no host in the header. Without a unit millimetres are stated, with a warning. */
 void iges_format(const struct model *m, struct text *out);
 enum status iges_write(const struct model *m, const char *path, const struct report *r);

@@ -1,5 +1,6 @@
-/* iges_format.c - writer of IGES 5.3: 126 and 128, their names (406 form 15) and colors (314). */
-#include "iges.h"
+/* iges_format.c - writer of IGES 5.3: 126 and 128, their names (406 form 15) and colors (314); trims
+ * are in iges_format_trims.c. */
+#include "iges_writer.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -11,15 +12,7 @@
 
 enum { HEADER_COLUMNS = 72, DATA_COLUMNS = 64, SEQUENCE_MAX = 9999999 };
 
-/* A section being written: columns of text broken into lines. */
-struct writer {
-	struct text directory, data; /* whole lines */
-	struct text line;            /* data columns of the P line begun */
-	int n_d, n_p;                /* lines in them */
-	int de;                      /* of the entity at hand */
-};
-
-static void end_line(struct writer *w)
+static void end_line(struct iges_writer *w)
 {
 	text_addf(&w->data, "%-*s%8dP%7d\n", DATA_COLUMNS, w->line.s ? w->line.s : "", w->de,
 	          ++w->n_p);
@@ -27,14 +20,14 @@ static void end_line(struct writer *w)
 }
 
 /* A parameter with its delimiter; it does not run over a line's end. */
-static void put(struct writer *w, const char *s, size_t n)
+static void put(struct iges_writer *w, const char *s, size_t n)
 {
 	if (w->line.n + n > DATA_COLUMNS)
 		end_line(w);
 	text_add_bytes(&w->line, s, n);
 }
 
-static void put_int(struct writer *w, int x, char delimiter)
+void iges_put_int(struct iges_writer *w, int x, char delimiter)
 {
 	char s[16];
 	put(w, s, (size_t)snprintf(s, sizeof s, "%d%c", x, delimiter));
@@ -61,7 +54,7 @@ static size_t real_text(char out[REAL_SIZE], double x)
 	return m;
 }
 
-static void put_real(struct writer *w, double x, char delimiter)
+static void put_real(struct iges_writer *w, double x, char delimiter)
 {
 	char s[REAL_SIZE + 1];
 	size_t n = real_text(s, x);
@@ -69,14 +62,14 @@ static void put_real(struct writer *w, double x, char delimiter)
 	put(w, s, n);
 }
 
-static void put_reals(struct writer *w, const double *x, size_t n)
+static void put_reals(struct iges_writer *w, const double *x, size_t n)
 {
 	for (size_t i = 0; i < n; i++)
 		put_real(w, x[i], ',');
 }
 
 /* A string runs over line ends, each of them full. What is no character becomes a blank. */
-static void put_string(struct writer *w, const char *s, char delimiter)
+static void put_string(struct iges_writer *w, const char *s, char delimiter)
 {
 	char count[24];
 	size_t n = strlen(s);
@@ -87,7 +80,7 @@ static void put_string(struct writer *w, const char *s, char delimiter)
 }
 
 /* The two directory lines of an entity whose `lines` parameter lines end at the last one. */
-static void put_entry(struct writer *w, int type, int form, int lines, int color,
+static void put_entry(struct iges_writer *w, int type, int form, int lines, int color,
                       const char *status)
 {
 	text_addf(&w->directory, "%8d%8d%8d%8d%8d%8d%8d%8d%sD%7d\n", type, w->n_p - lines + 1, 0, 0,
@@ -105,7 +98,7 @@ static bool all_weights_equal(const double *points, size_t n)
 	return true;
 }
 
-static void put_point(struct writer *w, const double *p)
+static void put_point(struct iges_writer *w, const double *p)
 {
 	for (int k = 0; k < 3; k++)
 		put_real(w, p[3] == 1 ? p[k] : p[k] / p[3], ',');
@@ -131,18 +124,17 @@ static bool in_plane(const struct curve *c)
 	return true;
 }
 
-static void put_curve(struct writer *w, const struct curve *c)
+static void put_curve(struct iges_writer *w, const struct curve *c)
 {
 	bool planar = in_plane(c);
-	const int head[] = { 126,
-		             c->n - 1,
+	const int head[] = { c->n - 1,
 		             c->order - 1,
 		             planar,
 		             curve_closed(c, closed_within * curve_size(c)),
 		             all_weights_equal(c->points, (size_t)c->n),
 		             c->periodic };
 	for (size_t i = 0; i < sizeof head / sizeof head[0]; i++)
-		put_int(w, head[i], ',');
+		iges_put_int(w, head[i], ',');
 	put_reals(w, c->knots, (size_t)c->n + c->order);
 	for (int i = 0; i < c->n; i++)
 		put_real(w, c->points[4 * (size_t)i + 3], ',');
@@ -153,12 +145,11 @@ static void put_curve(struct writer *w, const struct curve *c)
 	put_real(w, planar ? 1 : 0, ',');
 }
 
-static void put_surface(struct writer *w, const struct surface *s)
+static void put_surface(struct iges_writer *w, const struct surface *s)
 {
 	size_t n = (size_t)s->n[0] * s->n[1];
 	double tolerance = closed_within * surface_size(s);
-	const int head[] = { 128,
-		             s->n[0] - 1,
+	const int head[] = { s->n[0] - 1,
 		             s->n[1] - 1,
 		             s->order[0] - 1,
 		             s->order[1] - 1,
@@ -168,7 +159,7 @@ static void put_surface(struct writer *w, const struct surface *s)
 		             s->periodic[0],
 		             s->periodic[1] };
 	for (size_t i = 0; i < sizeof head / sizeof head[0]; i++)
-		put_int(w, head[i], ',');
+		iges_put_int(w, head[i], ',');
 	for (int d = 0; d < 2; d++)
 		put_reals(w, s->knots[d], (size_t)s->n[d] + s->order[d]);
 	for (int j = 0; j < s->n[1]; j++)
@@ -180,29 +171,44 @@ static void put_surface(struct writer *w, const struct surface *s)
 	put_reals(w, s->domain[0], 4);
 }
 
-/* A helper entity, written before the one that points to it; returns its directory entry. */
-static int put_color(struct writer *w, const double color[3])
+int iges_begin(struct iges_writer *w, int type)
 {
-	int from = w->n_p;
+	w->from = w->n_p;
 	w->de = w->n_d + 1;
-	put_int(w, 314, ',');
-	for (int i = 0; i < 3; i++)
-		put_real(w, 100 * color[i], i < 2 ? ',' : ';');
-	end_line(w);
-	put_entry(w, 314, 0, w->n_p - from, 0, "00000200");
+	iges_put_int(w, type, ',');
 	return w->de;
 }
 
-static int put_name(struct writer *w, const char *name)
+/* What stands behind the parameters: no associations, a name or none. */
+void iges_end(struct iges_writer *w, int type, int color, int name, const char *status)
 {
-	int from = w->n_p;
-	w->de = w->n_d + 1;
-	put_int(w, 406, ',');
-	put_int(w, 1, ',');
+	iges_put_int(w, 0, ',');
+	iges_put_int(w, name != 0, name ? ',' : ';');
+	if (name)
+		iges_put_int(w, name, ';');
+	end_line(w);
+	put_entry(w, type, 0, w->n_p - w->from, color, status);
+}
+
+/* Helper entities, written before those that point to them. */
+static int put_color(struct iges_writer *w, const double color[3])
+{
+	int de = iges_begin(w, 314);
+	for (int i = 0; i < 3; i++)
+		put_real(w, 100 * color[i], i < 2 ? ',' : ';');
+	end_line(w);
+	put_entry(w, 314, 0, w->n_p - w->from, 0, "00000200");
+	return de;
+}
+
+static int put_name(struct iges_writer *w, const char *name)
+{
+	int de = iges_begin(w, 406);
+	iges_put_int(w, 1, ',');
 	put_string(w, name, ';');
 	end_line(w);
-	put_entry(w, 406, 15, w->n_p - from, 0, "00010300");
-	return w->de;
+	put_entry(w, 406, 15, w->n_p - w->from, 0, "00010300");
+	return de;
 }
 
 /* The curve of an entity that 126 can hold; NULL for none. */
@@ -231,7 +237,8 @@ static enum status surface_meant(struct surface *out, const struct surface *s)
 }
 
 /* The parameters of a curve or surface; false where there was no memory for them. */
-static bool put_shape(struct writer *w, const struct curve *curve, const struct surface *surface)
+static bool put_shape(struct iges_writer *w, const struct curve *curve,
+                      const struct surface *surface)
 {
 	struct curve c = { 0 };
 	struct surface s = { 0 };
@@ -245,22 +252,28 @@ static bool put_shape(struct writer *w, const struct curve *curve, const struct 
 	return st == ST_OK;
 }
 
-static void put_entity(struct writer *w, const struct entity *e)
+int iges_put_curve(struct iges_writer *w, const struct curve *c, const char *status)
+{
+	int de = iges_begin(w, 126);
+	w->data.failed |= !put_shape(w, c, NULL);
+	iges_end(w, 126, 0, 0, status);
+	return de;
+}
+
+static void put_entity(struct iges_writer *w, const struct entity *e)
 {
 	const struct curve *curve = curve_of(e);
 	if (!curve && e->kind != ENTITY_SURFACE)
 		return;
+	bool trimmed = !curve && e->trim.n;
+	int type = curve ? 126 : 128;
 	int color = e->has_color ? -put_color(w, e->color) : 0;
 	int name = e->name && e->name[0] ? put_name(w, e->name) : 0;
-	int from = w->n_p;
-	w->de = w->n_d + 1;
+	int de = iges_begin(w, type);
 	w->data.failed |= !put_shape(w, curve, &e->geometry);
-	put_int(w, 0, ','); /* pointers to associations */
-	put_int(w, name != 0, name ? ',' : ';');
-	if (name)
-		put_int(w, name, ';');
-	end_line(w);
-	put_entry(w, curve ? 126 : 128, 0, w->n_p - from, color, "00000000");
+	iges_end(w, type, color, trimmed ? 0 : name, trimmed ? "00010000" : "00000000");
+	if (trimmed)
+		w->data.failed |= iges_put_trims(w, e, de, color, name) != ST_OK;
 }
 
 /* Unit flag of global field 14; 3 says that the name in field 15 counts. */
@@ -328,7 +341,7 @@ static int put_global(const struct model *m, struct text *out)
 void iges_format(const struct model *m, struct text *out)
 {
 	static const char start[] = "curves and surfaces written by batten";
-	struct writer w = { 0 };
+	struct iges_writer w = { 0 };
 	for (int i = 0; i < m->n; i++)
 		put_entity(&w, &m->entities[i]);
 	int n_s = put_header(out, 'S', start, sizeof start - 1);

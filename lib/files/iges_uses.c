@@ -306,6 +306,21 @@ static enum status find_of(struct iges *g, int de, size_t row)
 	return st == ST_INPUT ? ST_OK : st; /* the entity itself will say what is wrong with it */
 }
 
+/* Members of a group that a subfigure is made of are used by that, too. */
+static void use_members(struct iges *g, int de, int depth)
+{
+	struct iges_cursor c;
+	g->at = de;
+	int n = iges_open(g, de, 402, &c) == ST_OK ? iges_count(&c, "count", 0, iges_left(&c)) : 0;
+	for (int i = 0; i < n && c.st == ST_OK; i++) {
+		int member = iges_int(&c);
+		const struct iges_entry *e = iges_entry(g, member);
+		if (e && !e->used && iges_is_group(e) && depth < NESTING_MAX)
+			use_members(g, member, depth + 1);
+		use(g, member);
+	}
+}
+
 enum status iges_find_uses(struct iges *g)
 {
 	g->quiet = true;
@@ -320,6 +335,9 @@ enum status iges_find_uses(struct iges *g)
 		if (st != ST_OK)
 			return st;
 	}
+	for (int i = 0; i < g->n_entries; i++)
+		if (iges_is_group(&g->entries[i]) && g->entries[i].used)
+			use_members(g, 2 * i + 1, 0);
 	g->quiet = false;
 	return ST_OK;
 }

@@ -265,6 +265,44 @@ static void check_box(const char *file, const struct model *m, const json_t *o, 
 		            item(json_array_get(box, i / 3), i % 3), slack);
 }
 
+/*
+ * How far the other system's areas of faces are from what the files hold, where that is more than
+ * the usual: it makes circles of torus_nurbs.igs from 100 within a looser tolerance (ours are exact
+ * to 1e-10 there, see known_areas), takes a face of all_entities_bench.igs by its curve in space,
+ * and integrates over the two round faces of hammer.iges (D341, D477) by few points of their border,
+ * while polygons of 1e5 corners in the file's own curves agree with ours to 1e-9.
+ */
+static double area_slack(const char *file)
+{
+	static const struct {
+		const char *file;
+		double slack;
+	} rows[] = {
+		{ "all_entities_bench.igs", 5e-5 },
+		{ "hammer.iges", 3e-4 },
+		{ "torus_nurbs.igs", 5e-5 },
+	};
+	for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+		if (strcmp(rows[i].file, file) == 0)
+			return rows[i].slack;
+	return 1e-5; /* its own statement */
+}
+
+/* A face: its loops and what they leave. */
+static void check_face(const char *file, const struct model *m, const json_t *o)
+{
+	int type = (int)number(o, "type");
+	if (type != 143 && type != 144 && type != 510)
+		return;
+	const struct entity *e = find_de(m, (int)number(o, "de"));
+	double mm = m->unit_in_mm, expected = number(o, "area_mm2"), area, error;
+	if (e->trim.n != (int)number(o, "loops"))
+		fail_msg("%s D%d: %d loops", file, e->de, e->trim.n);
+	assert_int_equal(trim_area(&e->trim, &e->geometry, 1e-7, &area, &error), ST_OK);
+	assert_near("trimmed area", file, e->de, 0, area * mm * mm, expected,
+	            area_slack(file) * expected);
+}
+
 static void check_counts(const struct model *m, int row)
 {
 	int n[N_ENTITY_KINDS] = { 0 }, skipped = 0, number = 0;
@@ -308,6 +346,8 @@ static void files_agree_with_reference(void **state)
 		        check_surface(files[f].file, &m, o);
 		json_array_foreach(json_object_get(reference, "raw126"), i, o)
 		        check_curve(files[f].file, &m, o);
+		json_array_foreach(json_object_get(translated, "surfaces"), i, o)
+		        check_face(files[f].file, &m, o);
 		json_array_foreach(json_object_get(translated, "surfaces"), i, o)
 		        check_box(files[f].file, &m, o,
 		                  json_is_true(json_object_get(translated, "box_exact")));
