@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+/* more than these no curve of a face needs; a damaged one would take for ever */
+enum { PIECES_MOST = 400 };
 enum { LOOKS = 3 /* at quarters of a span */ };
 
 /* Spans are not halved below this part of the whole. */
@@ -66,7 +68,7 @@ static enum status fit_span(const struct hermite *h, const struct hermite_node *
 		h->at(h->data, a->t, b->t, candidate, &middle);
 		off = fmax(off, h->off(h->data, &middle, candidate));
 	}
-	if (!(off > h->tolerance) || b->t - a->t <= least_span * p->whole) {
+	if (!(off > h->tolerance) || b->t - a->t <= least_span * p->whole || p->n >= PIECES_MOST) {
 		p->worst = fmax(p->worst, off);
 		return add_span(p, a, b);
 	}

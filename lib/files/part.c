@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -24,7 +23,7 @@ struct span {
 	uint64_t at, n;
 };
 
-struct map {
+struct block {
 	char *bytes;
 	size_t n;
 };
@@ -34,10 +33,10 @@ struct part {
 	int fd;
 	struct text header; /* what the file begins with: the key and all */
 	size_t n_units, count;
-	struct span *spans; /* owned, n_units */
-	uint64_t end;       /* behind the last whole record */
-	struct map *maps;   /* owned; older ones stay, their bytes are promised until the close */
-	size_t n_maps;
+	struct span *spans;   /* owned, n_units */
+	uint64_t end;         /* behind the last whole record */
+	struct block *blocks; /* owned; older ones stay, their bytes are promised until the close */
+	size_t n_blocks;
 	pthread_mutex_t lock;
 };
 
@@ -67,30 +66,57 @@ static enum status no_memory(const struct report *r, const char *path)
 	return report_error(r, ST_RESOURCE, "cannot use part file '%s': memory ran out", path);
 }
 
-/* At least the file's first `need` bytes in memory, n if they must be mapped; they stay until the
- * close. */
-static enum status map_file(struct part *p, uint64_t need, uint64_t n, const char **bytes,
-                            const struct report *r)
+/* The file's first n bytes; read, not mapped: a file that somebody cuts short must not kill us. */
+static bool read_at(int fd, char *to, size_t n)
 {
-	for (size_t i = p->n_maps; i-- > 0;) {
-		if (p->maps[i].n >= need) {
-			*bytes = p->maps[i].bytes;
+	for (size_t at = 0; at < n;) {
+		ssize_t got = pread(fd, to + at, n - at, (off_t)at);
+		if (got < 0 && errno == EINTR)
+			continue;
+		if (got <= 0)
+			return false;
+		at += (size_t)got;
+	}
+	return true;
+}
+
+/* At least the file's first `need` bytes in memory, n if they must be read; they stay until the
+ * close. */
+static enum status read_bytes(struct part *p, uint64_t need, uint64_t n, const char **bytes,
+                              const struct report *r)
+{
+	for (size_t i = p->n_blocks; i-- > 0;) {
+		if (p->blocks[i].n >= need) {
+			*bytes = p->blocks[i].bytes;
 			return ST_OK;
 		}
 	}
-	struct map *maps = realloc(p->maps, (p->n_maps + 1) * sizeof *maps);
-	if (!maps)
+	struct block *blocks = realloc(p->blocks, (p->n_blocks + 1) * sizeof *blocks);
+	if (!blocks)
 		return no_memory(r, p->path);
-	p->maps = maps;
-	void *new =
-	        n <= SIZE_MAX ? mmap(NULL, (size_t)n, PROT_READ, MAP_SHARED, p->fd, 0) : MAP_FAILED;
-	if (new == MAP_FAILED)
+	p->blocks = blocks;
+	char *new = n <= SIZE_MAX ? malloc((size_t)n) : NULL;
+	if (!new)
 		return report_error(r, ST_RESOURCE,
 		                    "cannot read part file '%s': memory ran out; allow more",
 		                    p->path);
-	p->maps[p->n_maps++] = (struct map){ new, (size_t)n };
+	if (!read_at(p->fd, new, (size_t)n)) {
+		free(new);
+		return report_error(r, ST_INPUT,
+		                    "cannot read part file '%s': it was cut short meanwhile; start "
+		                    "again",
+		                    p->path);
+	}
+	p->blocks[p->n_blocks++] = (struct block){ new, (size_t)n };
 	*bytes = new;
 	return ST_OK;
+}
+
+static void forget_bytes(struct part *p)
+{
+	for (size_t i = 0; i < p->n_blocks; i++)
+		free(p->blocks[i].bytes);
+	p->n_blocks = 0;
 }
 
 /* pwritev of everything at `at`; a file cut short by a full disk is cut back. */
@@ -219,7 +245,7 @@ static enum status load(struct part *p, bool *same, const struct report *r)
 	if (size == 0)
 		return ST_OK;
 	const char *file;
-	enum status status = map_file(p, size, size, &file, r);
+	enum status status = read_bytes(p, size, size, &file, r);
 	if (status != ST_OK)
 		return status;
 	if (!begins_part(file, (size_t)size))
@@ -227,6 +253,7 @@ static enum status load(struct part *p, bool *same, const struct report *r)
 	*same = size >= p->header.n && memcmp(file, p->header.s, p->header.n) == 0;
 	if (*same)
 		scan(p, file, size, p->header.n);
+	forget_bytes(p); /* the file may be begun anew */
 	return ST_OK;
 }
 
@@ -273,13 +300,12 @@ void part_close(struct part *p)
 {
 	if (!p)
 		return;
-	for (size_t i = 0; i < p->n_maps; i++)
-		munmap(p->maps[i].bytes, p->maps[i].n);
+	forget_bytes(p);
 	if (p->fd >= 0)
 		close(p->fd);
 	pthread_mutex_destroy(&p->lock);
 	text_finish(&p->header);
-	free(p->maps);
+	free(p->blocks);
 	free(p->spans);
 	free(p->path);
 	free(p);
@@ -346,7 +372,7 @@ enum status part_get(struct part *p, size_t unit, const char **bytes, size_t *n,
 	if (unit < p->n_units)
 		span = p->spans[unit];
 	if (span.at)
-		st = map_file(p, span.at + span.n, p->end, &file, r);
+		st = read_bytes(p, span.at + span.n, p->end, &file, r);
 	pthread_mutex_unlock(&p->lock);
 	if (st != ST_OK)
 		return st;

@@ -253,8 +253,8 @@ int main(int argc, char **argv)
 
 	if (argc < 4)
 		return 2;
-	shading = argv[1];
-	raytrace = argv[2];
-	curvature = argv[3];
+	shading = realpath(argv[1], NULL); /* tests work in other folders */
+	raytrace = realpath(argv[2], NULL);
+	curvature = realpath(argv[3], NULL);
 	return cmocka_run_group_tests(tests, enter, leave);
 }
