@@ -70,6 +70,9 @@ static enum status take_option(struct invocation *i, int argc, char **argv, int 
 			                    word);
 		value = argv[*at];
 	}
+	/* --color #3070A0 is a worker's, --color never ours */
+	if (common >= 0 && i->command->takes_value && value[0] == '#')
+		common = -1;
 	if (own >= 0)
 		i->values[own] = value;
 	else if (common >= 0) {

@@ -26,11 +26,11 @@
 	X(SLURM_ACCOUNT, "slurm-account", 't', "", 0, 0, "account of Slurm jobs")                  \
 	X(SLURM_TIME, "slurm-time", 't', "", 0, 0, "time limit of Slurm jobs, as srun --time")     \
 	X(SLURM_OPTIONS, "slurm-options", 't', "", 0, 0, "more options of srun, by blanks")        \
-	X(WALL, "wall", 's', "0", 0, 1e8, "seconds one job may run; 0: no limit")                   \
+	X(WALL, "wall", 's', "0", 0, 1e8, "seconds one job may run; 0: no limit")                  \
 	X(DISK_FLOOR, "disk-floor", 'i', "64", 0, 1 << 30,                                         \
 	  "MiB that must be free where a job writes before it starts; 0: no limit")                \
 	X(RESUME, "resume", 'w', "auto", 0, 0,                                                     \
-	  "jobs that ran when the service died: auto (go on), ask (are held), never (are lost)")    \
+	  "jobs that ran when the service died: auto (go on), ask (are held), never (are lost)")   \
 	X(HOOK, "hook", 't', "", 0, 0, "command run at the end of each job and of each group")     \
 	X(BELL, "bell", 'w', "off", 0, 0, "ring the terminal at the end of run and wait: on, off") \
 	X(COLOR, "color", 'w', "auto", 0, 0, "auto, always or never")

@@ -59,6 +59,14 @@ static const struct row table[] = {
 	  { 0 },
 	  { "grid", "1x1", "png", "yes" } },
 	{ &open_one, { "--grid" }, ST_PARAMETER, NULL, false, { 0 }, { 0 } },
+	{ &open_one,
+	  { "--color", "#102030", "--color=never" },
+	  ST_OK,
+	  NULL,
+	  false,
+	  { 0 },
+	  { "color", "#102030" } },
+	{ &strict, { "--color", "#102030" }, ST_PARAMETER, NULL, false, { 0 }, { 0 } },
 	{ &open_one, { "-x" }, ST_PARAMETER, NULL, false, { 0 }, { 0 } },
 };
 

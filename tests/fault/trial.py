@@ -33,7 +33,7 @@ GUARD_S = 120
 REASONS = re.compile("|".join((
     "killed from outside", "ended by signal 15", "does not take START", "No space left", "disk is full", "Read-only", "Permission denied", "Is a directory",
     "File too large", "stopped from outside", "is full", "no HELLO", "file size", "killed by you", "in use",
-    "did not end within", "may not be written", "closed its pipe", "not run: job [0-9]+", "times; 'batten retry",
+    "did not end within", "may not be written", "closed its pipe", "was cut short meanwhile", "not run: job [0-9]+", "times; 'batten retry",
 )))
 CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH, PR_CAPBSET_DROP, CLONE_NEWNS = 1, 2, 24, 0x20000
 
