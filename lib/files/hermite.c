@@ -8,7 +8,7 @@ enum { PIECES_MOST = 400 };
 enum { LOOKS = 3 /* at quarters of a span */ };
 
 /* Spans are not halved below this part of the whole. */
-static const double least_span = 1e-4;
+static const double least_span = 1e-3;
 
 struct pieces {
 	double *t;           /* owned; ends of spans */

@@ -22,7 +22,7 @@ struct hermite {
 
 /*
  * Halve the spans between n >= 2 rising breaks until every cubic agrees in its middle and quarters;
- * spans are not halved below 1e-4 of the whole. `first` is the point at breaks[0]. *worst: the
+ * spans are not halved below 1e-3 of the whole. `first` is the point at breaks[0]. *worst: the
  * largest disagreement left. Errors: ST_RESOURCE.
  */
 enum status hermite_fit(const struct hermite *h, const double *breaks, int n, struct vec3 first,

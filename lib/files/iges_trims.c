@@ -154,7 +154,8 @@ static enum status project_parts(struct trimmer *t, int de, bool reversed, struc
 			continue; /* a pole written as an edge */
 		st = progress_step(t->g->progress, t->g->n_p ? (double)t->g->far / t->g->n_p : 0);
 		if (st == ST_OK)
-			st = projector_curve(t->p, &space.curves[i], t->tolerance, &c, &distance);
+			st = projector_curve(t->p, &space.curves[i], t->tolerance,
+			                     far_from * t->size, &c, &distance);
 		if (st != ST_OK)
 			break;
 		*worst = fmax(*worst, distance);

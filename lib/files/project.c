@@ -18,6 +18,7 @@ enum {
 
 static const double closed_within = 1e-9; /* of the size */
 static const double at_pole = 1e-7;       /* length of a derivative times its range, of the size */
+static const double settled = 1e-11;      /* of the size: a step that ends the search */
 static const double aside = 1e-3;         /* of a span: where a direction at a pole is looked up */
 
 struct projector {
@@ -30,7 +31,8 @@ struct projector {
 	double *at[2];          /* owned, its parameters */
 	struct vec3 *points;    /* owned, n[0] x n[1] */
 	const struct curve *c;  /* being followed */
-	double tolerance, near; /* distance within which its points are expected */
+	double near;            /* distance within which its points are expected */
+	double reach, farthest; /* beyond which it is given up; the largest found */
 	bool failed;            /* no memory */
 };
 
@@ -168,7 +170,7 @@ static double descend(const struct projector *p, struct vec3 x, struct vec3 *uv)
 		double moved = fabs(next.x - uv->x) * vec3_length(du) +
 		               fabs(next.y - uv->y) * vec3_length(dv);
 		*uv = next;
-		if (moved <= 1e-14 * p->size)
+		if (moved <= settled * p->size)
 			return vec3_length(vec3_sub(x, point_at(p, next)));
 	}
 	return best;
@@ -297,7 +299,10 @@ static void follow(void *data, double a, double b, struct vec3 guess, struct her
 	struct projector *p = data;
 	struct vec3 x[2];
 	double inner = aside * (b - a), t = n->t;
-	nearest(p, curve_point(p->c, t), guess, &n->point);
+	n->point = guess;
+	if (p->farthest > p->reach)
+		return;
+	p->farthest = fmax(p->farthest, nearest(p, curve_point(p->c, t), guess, &n->point));
 	int lost = free_parameter(p, n->point);
 	if (lost >= 0) {
 		struct vec3 beside;
@@ -431,7 +436,7 @@ static double measure(const struct projector *p, const struct curve *c, const st
 }
 
 enum status projector_curve(struct projector *p, const struct curve *c, double tolerance,
-                            struct curve *out, double *distance)
+                            double reach, struct curve *out, double *distance)
 {
 	double *breaks, worst;
 	int n;
@@ -444,8 +449,9 @@ enum status projector_curve(struct projector *p, const struct curve *c, double t
 		return st;
 	const struct hermite h = { follow, off_surface, p, tolerance };
 	p->c = c;
-	p->near = tolerance;
-	p->near = fmax(tolerance, 2 * search(p, curve_point(c, c->domain[0]), tolerance, &first));
+	p->reach = reach;
+	p->farthest = search(p, curve_point(c, c->domain[0]), tolerance, &first);
+	p->near = fmax(tolerance, 2 * p->farthest);
 	st = p->failed ? ST_RESOURCE : hermite_fit(&h, breaks, n, first, out, &worst);
 	free(breaks);
 	p->c = NULL;
@@ -455,14 +461,10 @@ enum status projector_curve(struct projector *p, const struct curve *c, double t
 	}
 	if (st != ST_OK)
 		return st;
-	*distance = measure(p, c, out);
+	*distance = p->farthest > reach ? p->farthest : measure(p, c, out);
+	if (*distance > reach)
+		return ST_OK;
 	return recognise_line(p, tolerance, out);
-}
-
-double projector_distance(struct projector *p, struct vec3 x)
-{
-	struct vec3 uv;
-	return search(p, x, 0, &uv);
 }
 
 double projector_period(const struct projector *p, int d)

@@ -16,14 +16,12 @@ void projector_destroy(struct projector *p); /* NULL is fine */
 /*
  * The u,v curve of a curve in space: lines where they do, and on parallelograms what is exact, else
  * cubics that leave c by `tolerance` more than c leaves the surface. Over the seam of a closed
- * surface it goes on beyond the domain. *distance: the largest found between c and what is made.
+ * surface it goes on beyond the domain. *distance: the largest found between c and what is made; beyond `reach` the rest is not
+ * looked at, and what is made is of no use.
  * Errors: ST_RESOURCE.
  */
 enum status projector_curve(struct projector *p, const struct curve *c, double tolerance,
-                            struct curve *out, double *distance);
-
-/* Distance from x to the surface. */
-double projector_distance(struct projector *p, struct vec3 x);
+                            double reach, struct curve *out, double *distance);
 
 /* Length of a direction after which the surface begins anew, 0 where it is not closed. */
 double projector_period(const struct projector *p, int d);
