@@ -310,16 +310,18 @@ static enum status curves_draw(struct drawing *d, int view)
 			continue;
 		const size_t first = s->n;
 		st = plan_stroke(s, &v->camera, c->curve, v->sides, v->n_sides);
-		const struct stroke part = { s->pieces + first, s->n - first, 0 };
+		const struct stroke part = { s->n > first ? s->pieces + first : NULL, s->n - first,
+			                     0 };
 		const double extent =
 		        part.n > 0 ? piece_extent(&part, set->kind == CONTOUR_STATIONS) : 0;
 		if (st == ST_OK && extent > best[c->place].extent)
 			best[c->place] = (struct labelled){ first, part.n, extent };
 	}
 	for (int i = 0; st == ST_OK && i < set->n; i++) {
+		if (!(best[i].extent > 24))
+			continue;
 		const struct stroke part = { s->pieces + best[i].first, best[i].n, 0 };
-		if (best[i].extent > 24)
-			curve_label(d, set, i, &part);
+		curve_label(d, set, i, &part);
 	}
 	free(best);
 	return st;

@@ -105,9 +105,10 @@ enum status whole_file_commit(struct whole_file *f, const struct report *r)
 {
 	int error = 0;
 
-	errno = 0;
-	if (ferror(f->stream) || fflush(f->stream) || fsync(fileno(f->stream)))
-		error = errno ? errno : EIO;
+	if (ferror(f->stream)) /* an earlier write failed: ask the disk again for the reason */
+		error = write(fileno(f->stream), "", 1) < 0 ? errno : ENOSPC;
+	else if (fflush(f->stream) || fsync(fileno(f->stream)))
+		error = errno;
 	if (fclose(f->stream) && !error)
 		error = errno;
 	f->stream = NULL;
