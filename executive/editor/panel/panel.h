@@ -1,0 +1,236 @@
+/* panel.h - everything in the window that is not the view: painted with Cairo from plain models.
+ * A painter knows nothing of worlds, jobs or menus; it gets a model, draws it, and says where the things
+ * are that can be clicked. Numbers are logical px; the caller scales the context. */
+#ifndef BATTEN_PANEL_H
+#define BATTEN_PANEL_H
+
+#include <cairo.h>
+
+#include "colormap.h"
+#include "stats.h"
+#include "theme.h"
+
+/* What lies where: filled in by painters, asked by the mouse. */
+enum hit_kind {
+	HIT_NONE,
+	HIT_MENU_ROW,
+	HIT_FIELD,
+	HIT_CHOICE,
+	HIT_BUTTON,
+	HIT_CHIP,
+	HIT_JOB_ROW,
+	HIT_JOB_BOX,
+	HIT_TAB,
+	HIT_SEARCH,
+	HIT_WORLD,
+	HIT_CANDIDATE,
+	HIT_RESULT,
+	HIT_KEY_LOW,
+	HIT_KEY_HIGH,
+	HIT_COLOR_WHEEL,
+	HIT_COLOR_VALUE,
+	HIT_LIGHT,
+	HIT_BAR,
+	HIT_CRUMB,
+	HIT_HELP_LINK,
+	HIT_SCROLL,
+};
+struct hit {
+	enum hit_kind kind;
+	int index, part; /* which row, and which part of it (a choice, an end) */
+	double x, y, width, height;
+};
+struct hits {
+	struct hit *hit; /* owned */
+	int n, cap;
+};
+void hits_reset(struct hits *h);
+void hits_finish(struct hits *h);
+const struct hit *hits_at(const struct hits *h, double x, double y); /* the last painted; NULL */
+
+/* State common to all painters. */
+struct look {
+	enum theme theme;
+	double scale; /* device px a logical px */
+	enum hit_kind hover_kind;
+	int hover_index, hover_part;
+	enum hit_kind focus_kind; /* keyboard focus: ring */
+	int focus_index;
+};
+
+/* Where the parts are in a window of that size; a part that is not shown has width 0. */
+struct box_px {
+	double x, y, width, height;
+};
+struct layout {
+	struct box_px top, view, key, panel_top, menu, form, mouse, message, prompt;
+	double menu_row, form_row;
+};
+void layout_place(struct layout *l, double width, double height, bool panel_shown, int menu_rows);
+
+/* Top bar: project, chips of jobs. */
+struct chip {
+	int64_t id;
+	enum job_state state;
+	const char *name; /* "curvature 21" */
+	const char *note; /* "1:24", "after 21", "done in 0:41" */
+	double fraction;  /* NaN: no bar */
+};
+struct top_model {
+	const char *project, *detail; /* "goteborg.iges", "3 surfaces, metres" */
+	const struct chip *chips;
+	int n_chips;
+};
+
+/* Menu panel: search and World buttons, crumbs, title, rows, then the form of what is asked. */
+struct menu_row {
+	char key;            /* '1' .. '9', '0', 'A' .. 'D' */
+	const char *name;    /* "ALL CURVATURES" */
+	const char *state;   /* right: "400 × 200", "job", why it is greyed; "" */
+	bool greyed, chosen; /* chosen: asked for, or shown (check) */
+	bool is_menu;
+};
+enum form_kind { FORM_TEXT, FORM_CHOICE, FORM_YESNO };
+struct form_field {
+	const char *label, *value, *unit, *error; /* error: below the field, or NULL */
+	enum form_kind kind;
+	const char *choices; /* "linear|arsinh" */
+	bool focused;
+	int caret; /* byte in value */
+};
+struct menu_model {
+	const char *crumbs; /* "MAIN › INTERROGATION › SURFACE" */
+	const char *title, *code;
+	const struct menu_row *rows;
+	int n_rows;
+	const char *form_title, *form_code; /* NULL: nothing is asked */
+	const struct form_field *fields;
+	int n_fields, scroll;
+	const char *main_button; /* "Show", "Start" */
+	bool world_open;
+};
+
+/* Mouse words; "" where a button does nothing now. At most 24 characters. */
+struct Mouse_Words {
+	const char *press[3], *release[3]; /* left, middle, right */
+};
+
+/* Foot: message and prompt. */
+struct foot_model {
+	enum report_level level;
+	bool done; /* a check before the message */
+	const char *message, *message_hint;
+	const char *prompt, *typed, *rest, *range; /* rest: grey completion; range at the right */
+	int caret;
+	bool caret_on;
+	struct {
+		const char *key, *word;
+	} hints[4];
+	const char *const *candidates, *const *candidate_notes; /* at most 8, best first */
+	int n_candidates, candidate;
+};
+
+/* Cards and pages over the view. */
+struct probe_model {
+	const char *title;
+	bool has_uv;
+	double u, v, point[3], normal[3], K, H, kmax, kmin;
+	const char *unit; /* of length, "m" or NULL */
+	bool kept;
+};
+struct key_model { /* color key of a map at the view's right edge */
+	struct colormap map;
+	const char *title, *note, *symbol, *unit;
+	double below, above;
+	bool nothing;
+};
+struct jobs_model {
+	const struct Stats *const *jobs;
+	const bool *picked;
+	int n, focus, tab, scroll; /* tab: all, active, waiting, ended */
+	int count[4];
+	const char *slots; /* "3 of 4 job slots in use" */
+	const char *log_title, *const *log;
+	int n_log;
+	double now;
+	bool can[5]; /* suspend, activate, kill, retry, open */
+};
+struct search_model {
+	const char *typed;
+	int caret;
+	struct search_result {
+		const char *name, *path, *kind, *code;
+		bool greyed;
+	} results[8];
+	int n, found, all, chosen;
+};
+struct help_model {
+	const char *code, *title, *kind, *path;
+	const char *text; /* paragraphs as the help look-up gives them */
+	double scroll;
+};
+struct keys_model { /* the sheet of all keys */
+	const struct key_row {
+		const char *key, *does;
+		bool off;
+	} * rows;
+	int n;
+};
+struct color_model {
+	double hue, saturation, value;
+	struct rgb old;
+	const char *what;
+};
+struct light_model {
+	double azimuth, incidence, intensity;
+};
+struct bar_model {
+	enum report_level level;
+	const char *text, *button;
+}; /* under the top bar, until solved */
+struct empty_model {
+	const char *const *recent;
+	int n;
+};
+struct list_model { /* plain lists: messages, questions before loss of work */
+	const char *title, *const *lines;
+	int n, scroll;
+	const char *const *buttons;
+	int n_buttons;
+};
+
+/* Painters: in the box given, hits appended in the same px. */
+void panel_top(cairo_t *cr, const struct box_px *b, const struct top_model *m, const struct look *k,
+               struct hits *h);
+void panel_menu(cairo_t *cr, const struct layout *l, const struct menu_model *m,
+                const struct look *k, struct hits *h);
+void panel_mouse(cairo_t *cr, const struct box_px *b, const struct Mouse_Words *m,
+                 const struct look *k);
+void panel_foot(cairo_t *cr, const struct layout *l, const struct foot_model *m,
+                const struct look *k, struct hits *h);
+void panel_heading(cairo_t *cr, const struct box_px *view, const char *title, const char *note,
+                   bool strong, const struct look *k);
+void panel_probe(cairo_t *cr, const struct box_px *view, double x, double y,
+                 const struct probe_model *m, const struct look *k);
+void panel_key(cairo_t *cr, const struct box_px *view, const struct key_model *m,
+               const struct look *k, struct hits *h);
+void panel_jobs(cairo_t *cr, const struct box_px *b, const struct jobs_model *m,
+                const struct look *k, struct hits *h);
+void panel_search(cairo_t *cr, double width, double height, const struct search_model *m,
+                  const struct look *k, struct hits *h);
+void panel_help(cairo_t *cr, const struct layout *l, const struct help_model *m,
+                const struct look *k, struct hits *h);
+void panel_keys(cairo_t *cr, const struct box_px *b, const struct keys_model *m,
+                const struct look *k);
+void panel_color(cairo_t *cr, const struct box_px *b, const struct color_model *m,
+                 const struct look *k, struct hits *h);
+void panel_light(cairo_t *cr, const struct box_px *b, const struct light_model *m,
+                 const struct look *k, struct hits *h);
+void panel_bar(cairo_t *cr, const struct box_px *b, const struct bar_model *m, const struct look *k,
+               struct hits *h);
+void panel_empty(cairo_t *cr, const struct box_px *b, const struct empty_model *m,
+                 const struct look *k, struct hits *h);
+void panel_list(cairo_t *cr, const struct box_px *b, const struct list_model *m,
+                const struct look *k, struct hits *h);
+
+#endif

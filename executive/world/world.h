@@ -1,0 +1,164 @@
+/* world.h - what is open: curves and surfaces, which of them are current, what is shown, undo. */
+#ifndef BATTEN_WORLD_H
+#define BATTEN_WORLD_H
+
+#include "camera.h"
+#include "colormap.h"
+#include "model.h"
+
+enum line_type { LINE_SOLID, LINE_DASHED, LINE_DOTTED };
+enum surface_look { LOOK_WIRE, LOOK_SHADED, LOOK_MAP, LOOK_IMAGE };
+
+/* How a thing is drawn; never a change of the thing. */
+struct display {
+	bool on;
+	bool has_color;
+	struct rgb color;
+	enum line_type line;
+	int segments;         /* of a curve, or of an isoparametric line; 0: as exact as seen */
+	int lines_u, lines_v; /* isoparametric lines between the borders */
+	enum surface_look look;
+	bool net;       /* control polygon or net */
+	bool porcupine; /* curvature comb */
+	double quill;   /* length of the longest quill, share of the thing's size */
+	int quills;     /* how many */
+};
+
+/*
+ * One thing that is open: the thesis's FulCurv where its kind is a curve or a curve on surface, FulSurf
+ * where it is a surface. Its id never changes and is never used again.
+ */
+struct Ful {
+	int id;
+	char *name;           /* owned; basic name, unique in the world */
+	char *file;           /* owned; where it was read from or last saved, NULL: nowhere */
+	struct entity entity; /* owned: geometry, trims, the color of its file */
+	struct display display;
+	int copy_of, offset_of, on; /* ids, 0: none; on: the surface a curve on surface lies on */
+	double offset;              /* distance of offset_of, file units */
+	bool saved;                 /* as it is, it lies in `file` */
+	unsigned revision;          /* grows with every change of the geometry: for caches */
+};
+
+bool ful_is_curve(const struct Ful *f); /* curve or curve on surface */
+
+enum quantity {
+	QUANTITY_K,
+	QUANTITY_H,
+	QUANTITY_KABS,
+	QUANTITY_KMAX,
+	QUANTITY_KMIN,
+	QUANTITY_KN_U,
+	QUANTITY_KN_V,
+	N_QUANTITIES
+};
+
+struct quantity_row {
+	const char *title, *symbol, *channel; /* "Gaussian curvature", "K", EXR channel "K" */
+	bool is_signed;
+	int power; /* of 1 / length: 2 of K, 1 of the others */
+};
+extern const struct quantity_row quantity_table[N_QUANTITIES];
+
+enum overlay_kind { OVERLAY_MAP, OVERLAY_LINES, OVERLAY_IMAGE };
+
+/* A result that is shown with its thing: a curvature map on a surface, lines on it, an image. */
+struct overlay {
+	enum overlay_kind kind;
+	int thing;   /* id, 0: none (an image of several) */
+	char *file;  /* owned; result or, while its job runs, part file */
+	int64_t job; /* 0: none; else tiles arrive from it */
+	enum quantity quantity;
+	bool range_given, symmetric; /* of a map */
+	double lo, hi;
+	enum colormap_scale scale;
+};
+
+/* Where a probe was kept. */
+struct mark {
+	int thing; /* id of a surface */
+	double u, v;
+};
+
+/* Things that setting routines set and that are no default of a job. */
+struct sight {
+	struct camera camera; /* width and height are the window's concern */
+	bool has_camera;
+	struct rgb background;
+	bool has_background;
+	double light_azimuth, light_incidence, light_intensity; /* degrees, 0 .. 1 */
+	struct rgb specular;
+	double reflectivity;
+	bool bell;
+	bool all_curvatures; /* seven tiles */
+};
+
+struct world; /* opaque */
+
+/*
+ * folder: the project's. Borrowed strings are copied.
+ * Errors: ST_RESOURCE.
+ */
+enum status world_create(struct world **out, const char *folder);
+void world_destroy(struct world *w); /* NULL is fine */
+const char *world_folder(const struct world *w);
+
+/* What is there. Pointers are borrowed until the next change. */
+int world_count(const struct world *w);
+const struct Ful *world_at(const struct world *w, int k);     /* k < count, in order of opening */
+const struct Ful *world_by_id(const struct world *w, int id); /* NULL: none */
+const struct Ful *world_find(const struct world *w, const char *name, const struct report *r);
+const struct Ful *world_current(const struct world *w, bool curve); /* NULL: none */
+unsigned world_revision(const struct world *w); /* grows with every change of anything here */
+bool world_unsaved(const struct world *w);
+
+/* Open every entity of a file, or those chosen ("3", "NAME", "D15", several by comma; NULL: all that
+ * no other entity uses); the last of each kind becomes current. Names are made unique (-2, -3).
+ * Not an edit that undo takes back. Errors: as model_read. */
+enum status world_open(struct world *w, const char *path, const char *entities,
+                       const struct progress *p, const struct report *r);
+
+/*
+ * Edits. Each is one step of undo and is named ("move point 5"). `e` is moved in.
+ * Errors: ST_PARAMETER (no such thing), ST_RESOURCE.
+ */
+enum status world_add(struct world *w, const char *what, const char *name, struct entity *e,
+                      int *id, const struct report *r);
+enum status world_replace(struct world *w, const char *what, int id, struct entity *e,
+                          const struct report *r);
+enum status world_remove(struct world *w, const char *what, int id, const struct report *r);
+enum status world_rename(struct world *w, int id, const char *name, const struct report *r);
+enum status world_undo(struct world *w, const struct report *r);
+enum status world_redo(struct world *w, const struct report *r);
+const char *world_undo_name(const struct world *w); /* "move point 5", NULL: nothing to undo */
+const char *world_redo_name(const struct world *w);
+
+/* Not edits: what is current, how it is drawn, what is shown. */
+enum status world_select(struct world *w, int id, const struct report *r);
+enum status world_set_display(struct world *w, int id, const struct display *d);
+struct sight *world_sight(struct world *w); /* to read and change; then world_touch */
+void world_touch(struct world *w);
+enum status world_show(struct world *w,
+                       const struct overlay *o); /* copied; replaces one of its kind and thing */
+void world_hide(struct world *w, enum overlay_kind kind, int thing);
+int world_overlays(const struct world *w);
+const struct overlay *world_overlay(const struct world *w, int k);
+enum status world_keep_mark(struct world *w, const struct mark *m);
+int world_marks(const struct world *w);
+const struct mark *world_mark(const struct world *w, int k);
+void world_drop_marks(struct world *w);
+
+/* Write a thing as NAME.base (path NULL: its own), whole or not at all; it is saved then. */
+enum status world_save(struct world *w, int id, const char *path, const struct report *r);
+
+/* Defaults of later jobs that setting routines store: "curvature", "grid", "400x200". NULL: none. */
+enum status world_set_default(struct world *w, const char *worker, const char *parameter,
+                              const char *value);
+const char *world_default(const struct world *w, const char *worker, const char *parameter);
+
+/* The session: what is open, unsaved geometry with it, sight, display, overlays, defaults, in
+ * .batten/session; restored at start. Undo does not survive. */
+enum status world_keep_session(const struct world *w, const struct report *r);
+enum status world_restore_session(struct world *w, const struct report *r);
+
+#endif
