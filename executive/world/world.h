@@ -2,6 +2,8 @@
 #ifndef BATTEN_WORLD_H
 #define BATTEN_WORLD_H
 
+#include <stdint.h>
+
 #include "camera.h"
 #include "colormap.h"
 #include "model.h"
