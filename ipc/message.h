@@ -40,7 +40,7 @@ enum message_way { FROM_WORKER = 1, TO_WORKER = 2, FROM_CLIENT = 4, FROM_SERVICE
 	X(SUSPEND, 131, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                               \
 	X(ACTIVATE, 132, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                              \
 	X(KILL, 133, FROM_CLIENT, "id:i jobs:a? group:s? all:b? by:s?")                            \
-	X(HOLD, 134, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                                  \
+	X(HOLD, 134, FROM_CLIENT, "id:i jobs:a? group:s? all:b? after_current:b?")                 \
 	X(RELEASE, 135, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                               \
 	X(RETRY, 136, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                                 \
 	X(PRIORITY, 137, FROM_CLIENT, "id:i jobs:a? group:s? all:b? priority:i top:b?")                   \

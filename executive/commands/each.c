@@ -15,7 +15,8 @@ int each_job(const struct invocation *i, enum message_type type, json_t *more)
 	struct connection c;
 	struct job_list list = { 0 };
 	json_t *body = NULL;
-	enum status st = connection_selection(i, true, &body);
+	bool all = json_is_true(json_object_get(more, "all"));
+	enum status st = connection_selection(i, !all, &body);
 
 	if (st == ST_OK && more)
 		json_object_update(body, more);

@@ -8,7 +8,8 @@
 /* Options --all and --group. */
 extern const struct option_row each_options[];
 
-/* Send the request for the jobs named and show what they are now. Exit status. */
+/* Send the request for the jobs named and show what they are now. more: members added (stolen), or
+ * NULL; with "all" no job need be named. Exit status. */
 int each_job(const struct invocation *i, enum message_type type, json_t *more);
 
 #endif

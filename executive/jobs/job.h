@@ -4,6 +4,9 @@
 
 #include "queue.h"
 
+/* Of a job that came while the whole queue was held. */
+extern const char job_held_text[];
+
 /* Why a job is being ended by us. */
 enum job_cause { CAUSE_NONE, CAUSE_KILL, CAUSE_FAULT, CAUSE_LEAVE };
 
@@ -81,6 +84,7 @@ struct queue {
 	int n_changed, changed_cap;
 	int dependents; /* jobs that wait, or waited, for others */
 	bool leaving, unsettled;
+	bool held;   /* jobs that come wait until they are released */
 	char *fault; /* owned; why the ledger takes nothing */
 	double retry_at;
 	double look_at;          /* when to look for room on a disk again */

@@ -134,20 +134,52 @@ static enum status row_load(struct book *b, sqlite3_stmt *s, ledger_job *each, v
 	return st;
 }
 
+/* A ledger from before there was such a table has none until something is held. */
+static enum status book_hold(void *data, bool held, const struct report *r)
+{
+	struct book *b = data;
+	book_durable(b, true);
+	if (sqlite3_exec(b->db,
+	                 held ? "BEGIN;CREATE TABLE IF NOT EXISTS held(name TEXT PRIMARY KEY);"
+	                        "INSERT OR IGNORE INTO held VALUES('queue');COMMIT"
+	                      : "DROP TABLE IF EXISTS held",
+	                 NULL, NULL, NULL) == SQLITE_OK)
+		return ST_OK;
+	enum status st = book_error(b, "write", r);
+	if (!sqlite3_get_autocommit(b->db))
+		book_step(b->rollback);
+	return st;
+}
+
+/* The whole number a statement gives; 0 where it gives none. Errors: ST_RESOURCE. */
+static enum status book_number(struct book *b, const char *sql, int64_t *out,
+                               const struct report *r)
+{
+	sqlite3_stmt *s;
+	*out = 0;
+	if (sqlite3_prepare_v2(b->db, sql, -1, &s, NULL) != SQLITE_OK)
+		return book_error(b, "read", r);
+	if (sqlite3_step(s) == SQLITE_ROW)
+		*out = sqlite3_column_int64(s, 0);
+	sqlite3_finalize(s);
+	return ST_OK;
+}
+
 static enum status book_load(void *data, ledger_job *each, void *each_data, int64_t *last,
-                             const struct report *r)
+                             bool *held, const struct report *r)
 {
 	struct book *b = data;
 	sqlite3_stmt *s;
-	enum status st = ST_OK;
+	int64_t marks = 0;
 	int code = SQLITE_DONE;
-	*last = 0;
-	if (sqlite3_prepare_v2(b->db, "SELECT seq FROM sqlite_sequence WHERE name='jobs'", -1, &s,
-	                       NULL) != SQLITE_OK)
-		return book_error(b, "read", r);
-	if (sqlite3_step(s) == SQLITE_ROW)
-		*last = sqlite3_column_int64(s, 0);
-	sqlite3_finalize(s);
+	enum status st =
+	        book_number(b, "SELECT seq FROM sqlite_sequence WHERE name='jobs'", last, r);
+	if (st == ST_OK)
+		st = book_number(b, "SELECT count(*) FROM sqlite_schema WHERE name='held'", &marks,
+		                 r);
+	if (st != ST_OK)
+		return st;
+	*held = marks > 0;
 	if (sqlite3_prepare_v2(b->db, "SELECT id, front, killed, record FROM jobs ORDER BY id", -1,
 	                       &s, NULL) != SQLITE_OK)
 		return book_error(b, "read", r);
@@ -248,7 +280,9 @@ enum status ledger_open(struct ledger *out, const char *path, const struct repor
 		book_close(b);
 		return st;
 	}
-	*out = (struct ledger){ .data = b, .write = book_write, .load = book_load };
+	*out = (struct ledger){
+		.data = b, .write = book_write, .hold = book_hold, .load = book_load
+	};
 	return ST_OK;
 }
 

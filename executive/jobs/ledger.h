@@ -20,9 +20,11 @@ struct ledger {
 	 * Errors: ST_RESOURCE. */
 	enum status (*write)(void *data, const struct ledger_change *changes, size_t n,
 	                     bool durable, const struct report *r);
-	/* Every record by rising id; *last is the highest id ever given. */
+	/* Are jobs that come held? Errors: ST_RESOURCE. */
+	enum status (*hold)(void *data, bool held, const struct report *r);
+	/* Every record by rising id; *last is the highest id ever given, *held as it was kept. */
 	enum status (*load)(void *data, ledger_job *each, void *each_data, int64_t *last,
-	                    const struct report *r);
+	                    bool *held, const struct report *r);
 };
 
 /* SQLite in WAL mode. Errors: ST_RESOURCE, ST_INPUT (written by a later batten). */

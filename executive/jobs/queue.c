@@ -142,7 +142,9 @@ static enum status job_submitted(struct job *job, const struct Stats *given, int
 		*own[k] = NULL;
 	}
 	s->id = first + i;
-	s->state = JOB_QUEUED;
+	s->state = q->held ? JOB_HELD : JOB_QUEUED;
+	if (q->held)
+		s->reason = strdup(job_held_text);
 	s->done = s->total = s->pid = 0;
 	s->started = s->ended = 0;
 	s->eta_s = s->wall_s = s->suspended_s = s->cpu_s = NAN;
@@ -210,8 +212,9 @@ enum status queue_submit(struct queue *q, const struct Stats *s, int n, int64_t 
 		st = q->ports.ledger->write(q->ports.ledger->data, changes, (size_t)n, true, r);
 	if (st != ST_OK) {
 		while (q->n > before) {
-			q->count[JOB_QUEUED]--;
-			q->dependents -= line_depends(q->jobs[--q->n]);
+			const struct job *gone = q->jobs[--q->n];
+			q->count[gone->stats.state]--;
+			q->dependents -= line_depends(gone);
 		}
 		q->last = last;
 		for (int i = 0; i < made; i++)
@@ -294,7 +297,8 @@ static enum status queue_take(void *data, struct Stats *s, bool front, bool kill
 enum status queue_load(struct queue *q, const struct report *r)
 {
 	int64_t last = 0;
-	enum status st = q->ports.ledger->load(q->ports.ledger->data, queue_take, q, &last, r);
+	enum status st =
+	        q->ports.ledger->load(q->ports.ledger->data, queue_take, q, &last, &q->held, r);
 	if (last > q->last)
 		q->last = last;
 	for (int i = 0; i < q->n && st == ST_OK; i++)
@@ -350,6 +354,15 @@ enum status queue_top(struct queue *q, int64_t id, const struct report *r)
 		line_add(job);
 	job_changed(job, true);
 	return ST_OK;
+}
+
+enum status queue_hold(struct queue *q, bool held, const struct report *r)
+{
+	enum status st =
+	        q->held == held ? ST_OK : q->ports.ledger->hold(q->ports.ledger->data, held, r);
+	if (st == ST_OK)
+		q->held = held;
+	return st;
 }
 
 /* Close the gaps that forgotten jobs leave, in one pass. */

@@ -75,6 +75,10 @@ enum status queue_priority(struct queue *q, int64_t id, int priority, const stru
 /* Before all others of its line. Errors: ST_INPUT (it does not wait). */
 enum status queue_top(struct queue *q, int64_t id, const struct report *r);
 
+/* From now on jobs that are submitted or tried again are held, or no longer; what has begun goes on.
+ * In the ledger on return. Errors: ST_RESOURCE. */
+enum status queue_hold(struct queue *q, bool held, const struct report *r);
+
 /* Forget jobs that have ended. Errors: ST_RESOURCE, ST_INPUT. */
 enum status queue_forget(struct queue *q, const int64_t *ids, int n, const struct report *r);
 

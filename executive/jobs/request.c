@@ -191,25 +191,48 @@ static bool somebody_named(struct request *q, const json_t *body)
 	return false;
 }
 
+/* The whole queue: is what comes later held, too? */
+static enum status gate(struct request *q, const struct request_row *row, const json_t *body)
+{
+	struct report r = request_report(q);
+	bool all = json_flag(body, "all", false) && !json_object_get(body, "jobs") &&
+	           !json_object_get(body, "group");
+	if (all && row->event == EV_HOLD && json_flag(body, "after_current", false))
+		return queue_hold(queue_of(q), true, &r);
+	if (all && row->event == EV_RELEASE)
+		return queue_hold(queue_of(q), false, &r);
+	return ST_OK;
+}
+
+/* "After the current ones": what has begun goes on to its end, what is held stays so. */
+static bool has_begun(const struct Stats *s)
+{
+	return s->state != JOB_QUEUED && !job_state_table[s->state].over;
+}
+
 static void take_event(struct request *q, const struct request_row *row, const json_t *body)
 {
 	const json_t *ids = json_object_get(body, "jobs");
-	const char *group = json_text(body, "group", NULL);
+	const char *group = json_text(body, "group", NULL), *by = json_text(body, "by", "you");
+	bool lenient = row->event == EV_HOLD && json_flag(body, "after_current", false);
 	struct report r = request_report(q);
-	if (!somebody_named(q, body)) {
+	if (!somebody_named(q, body) || gate(q, row, body) != ST_OK) {
 		request_end(q);
 		return;
 	}
-	if (json_is_array(ids) ? !select_named(q, ids)
-	                       : !select_where(q, group, pass_event, &row->event)) {
+	if (json_is_array(ids)
+	            ? !select_named(q, ids)
+	            : !select_where(q, group, lenient ? pass_unended : pass_event, &row->event)) {
 		request_end(q);
 		return;
 	}
 	int kept = 0;
-	for (int i = 0; i < q->n; i++)
-		if (queue_event(queue_of(q), q->jobs[i], row->event, json_text(body, "by", "you"),
-		                &r) == ST_OK)
+	for (int i = 0; i < q->n; i++) {
+		const struct Stats *s = queue_find(queue_of(q), q->jobs[i]);
+		if ((lenient && has_begun(s)) ||
+		    queue_event(queue_of(q), q->jobs[i], row->event, by, &r) == ST_OK)
 			q->jobs[kept++] = q->jobs[i];
+	}
 	q->n = kept;
 }
 

@@ -13,6 +13,8 @@
 const char *const job_event_asked[N_JOB_EVENTS] = { JOB_EVENT_MAP(X) };
 #undef X
 
+const char job_held_text[] = "the queue is held; 'batten release --all' lets it go on";
+
 void job_reason(struct job *job, const char *format, ...)
 {
 	char text[1024];
@@ -253,7 +255,9 @@ static void do_retry(struct job *job, const char *by)
 	stats_drop_outputs(&job->stats);
 	job->unsettled = line_unsettled(job);
 	job->q->unsettled = true;
-	job_enter(job, JOB_QUEUED);
+	job_enter(job, job->q->held ? JOB_HELD : JOB_QUEUED);
+	if (job->q->held)
+		job_reason(job, "%s", job_held_text);
 }
 
 typedef void job_action(struct job *job, const char *by);

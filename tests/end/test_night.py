@@ -41,6 +41,42 @@ def test_after_any_end(project):
     assert project.jobs()[job]["state"] == "killed"
 
 
+def states(project, *ids):
+    jobs = project.jobs()
+    return [jobs[i]["state"] for i in ids]
+
+
+def test_hold_after_current(project):
+    project.run("batten", "config", "jobs", "1")
+    (job,) = project.submit(*LONG, "--group", "g")
+    end.until(lambda: states(project, job) == ["running"], "it runs")
+    small = ("shading", TORUS, "--size", "16x16")
+    (inside,) = project.submit(*small, "-o", "a", "--group", "g")
+    (outside,) = project.submit(*small, "-o", "b")
+    # a group, then a job that is running, an ended one, one by name
+    said = project.run("batten", "hold", "--after-current", "--group", "g").stdout
+    assert said.split("\n")[:2] == [f"{job} running", f"{inside} held"], said
+    assert states(project, job, inside, outside) == ["running", "held", "queued"]
+    assert "cannot be held" in project.run("batten", "hold", job, status=1).stderr
+    project.run("batten", "hold", "--after-current", job)
+    assert states(project, job) == ["running"]
+    # the whole queue, what comes too, also after the service died
+    found = project.json("batten", "hold", "--after-current")["jobs"]
+    assert {j["id"]: j["state"] for j in found} == {job: "running", inside: "held", outside: "held"}
+    end.kill(project.service_pid())
+    (later,) = project.submit(*small, "-o", "c")
+    assert states(project, inside, outside, later) == ["held"] * 3
+    assert "batten release --all" in project.jobs()[later]["reason"]
+    end.until(lambda: states(project, job) == ["running"], "it goes on")
+    project.run("batten", "kill", job)
+    assert "cannot be held" in project.run("batten", "hold", "--after-current", job, status=1).stderr
+    assert states(project, inside, outside, later) == ["held"] * 3
+    project.run("batten", "release", "--all")
+    (last,) = project.submit(*small, "-o", "d")
+    project.run("batten", "wait", inside, outside, later, last)
+    project.run("batten", "hold", "--after-current", "--all", inside, status=2)
+
+
 def test_no_job_starts_where_its_output_cannot_fit(project):
     project.run("batten", "config", "disk-floor", str(1 << 30))
     (job,) = project.submit("shading", TORUS, "--size", "16x16")

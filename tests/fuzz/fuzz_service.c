@@ -79,7 +79,15 @@ static enum status write_nothing(void *data, const struct ledger_change *changes
 	return ST_OK;
 }
 
-static enum status load(void *data, ledger_job *each, void *each_data, int64_t *last,
+static enum status hold(void *data, bool held, const struct report *r)
+{
+	(void)data;
+	(void)held;
+	(void)r;
+	return ST_OK;
+}
+
+static enum status load(void *data, ledger_job *each, void *each_data, int64_t *last, bool *held,
                         const struct report *r)
 {
 	(void)data;
@@ -87,6 +95,7 @@ static enum status load(void *data, ledger_job *each, void *each_data, int64_t *
 	(void)each_data;
 	(void)r;
 	*last = 0;
+	*held = false;
 	return ST_OK;
 }
 

@@ -91,8 +91,17 @@ static enum status fake_write(void *data, const struct ledger_change *changes, s
 	return ST_OK;
 }
 
+static enum status fake_hold(void *data, bool held, const struct report *r)
+{
+	struct fake *f = data;
+	if (f->full)
+		return report_error(r, ST_RESOURCE, "the disk is full");
+	f->held = held;
+	return ST_OK;
+}
+
 static enum status fake_load(void *data, ledger_job *each, void *each_data, int64_t *last,
-                             const struct report *r)
+                             bool *held, const struct report *r)
 {
 	struct fake *f = data;
 	(void)r;
@@ -104,6 +113,7 @@ static enum status fake_load(void *data, ledger_job *each, void *each_data, int6
 		assert_int_equal(each(each_data, &s, f->rows[id].front, f->rows[id].killed), ST_OK);
 	}
 	*last = f->last;
+	*held = f->held;
 	return ST_OK;
 }
 
@@ -165,7 +175,7 @@ void fake_init(struct fake *f)
 		              .note = fake_note,
 		              .job_file = fake_job_file,
 		              .forget = fake_forget },
-		.ledger = { .data = f, .write = fake_write, .load = fake_load },
+		.ledger = { .data = f, .write = fake_write, .hold = fake_hold, .load = fake_load },
 		.clock = { .data = f, .elapsed = fake_elapsed, .date = fake_date },
 		.limits = { .jobs = 2,
 		            .threads = 4,

@@ -25,6 +25,7 @@ struct fake {
 	} rows[FAKE_ROWS]; /* the ledger, by id */
 	int64_t room;      /* MiB on the disk; -1: not known */
 	int64_t last;
+	bool held;
 	int unsynced; /* changes since the last durable write */
 };
 

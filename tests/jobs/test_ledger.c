@@ -69,8 +69,9 @@ static void keeps_records_and_numbers(void **state)
 	struct ledger l;
 	struct found f = { 0 };
 	int64_t last;
+	bool held;
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
-	assert_int_equal(l.load(l.data, find, &f, &last, NULL), ST_OK);
+	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
 	assert_int_equal(f.n, 0);
 	assert_int_equal(last, 0);
 	for (int64_t id = 1; id <= 4; id++)
@@ -81,7 +82,7 @@ static void keeps_records_and_numbers(void **state)
 	ledger_close(&l);
 
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
-	assert_int_equal(l.load(l.data, find, &f, &last, NULL), ST_OK);
+	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
 	assert_int_equal(f.n, 3);
 	assert_int_equal(last, 4);
 	assert_int_equal(f.states[0], JOB_QUEUED);
@@ -98,6 +99,7 @@ static void a_crash_loses_nothing_acknowledged(void **state)
 	struct ledger l;
 	struct found f = { 0 };
 	int64_t last, told = 0, id;
+	bool held;
 	int p[2];
 	assert_int_equal(pipe(p), 0);
 	pid_t child = fork();
@@ -120,7 +122,7 @@ static void a_crash_loses_nothing_acknowledged(void **state)
 	close(p[0]);
 	assert_true(told >= 300);
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
-	assert_int_equal(l.load(l.data, find, &f, &last, NULL), ST_OK);
+	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
 	assert_true(last >= told);
 	assert_true(f.n >= told);
 	ledger_close(&l);
@@ -134,6 +136,7 @@ static void a_batch_is_written_whole_or_not_at_all(void **state)
 	struct found f = { 0 };
 	struct report_store store;
 	int64_t last;
+	bool held;
 	report_store_init(&store);
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	assert_int_equal(put(&l, 1, JOB_QUEUED, true), ST_OK);
@@ -155,7 +158,7 @@ static void a_batch_is_written_whole_or_not_at_all(void **state)
 	setrlimit(RLIMIT_FSIZE, &old);
 	assert_int_equal(st, ST_RESOURCE);
 	assert_non_null(strstr(store.error, "cannot write the ledger"));
-	assert_int_equal(l.load(l.data, find, &f, &last, NULL), ST_OK);
+	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
 	assert_int_equal(f.n, 1);
 	/* and when there is room again, it goes on */
 	assert_int_equal(l.write(l.data, c, 500, true, NULL), ST_OK);
@@ -194,6 +197,7 @@ static void damage_costs_no_more_than_it_must(void **state)
 	struct found f = { 0 };
 	struct report_store store;
 	int64_t last;
+	bool held;
 	sqlite3 *db;
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	for (int64_t id = 1; id <= 400; id++)
@@ -205,7 +209,7 @@ static void damage_costs_no_more_than_it_must(void **state)
 	        SQLITE_OK);
 	sqlite3_close(db);
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
-	assert_int_equal(l.load(l.data, find, &f, &last, NULL), ST_OK);
+	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
 	assert_int_equal(f.n, 400);
 	assert_int_equal(f.ids[6], 7);
 	assert_int_equal(f.states[6], JOB_LOST);
@@ -224,7 +228,7 @@ static void damage_costs_no_more_than_it_must(void **state)
 	f.n = 0;
 	enum status st = ledger_open(&l, path, &store.report);
 	if (st == ST_OK) {
-		st = l.load(l.data, find, &f, &last, &store.report);
+		st = l.load(l.data, find, &f, &last, &held, &store.report);
 		ledger_close(&l);
 	}
 	assert_int_equal(st, ST_RESOURCE);
@@ -233,6 +237,26 @@ static void damage_costs_no_more_than_it_must(void **state)
 }
 
 /* In a child that permissions hold, whoever runs the test. */
+static void whether_the_queue_is_held_is_kept(void **state)
+{
+	static const bool steps[] = { false, true, true, false, false, true };
+	char *path = path_join(*state, "jobs.db");
+	struct ledger l;
+	struct found f = { 0 };
+	int64_t last;
+	for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+		bool held = !steps[i];
+		assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+		assert_int_equal(l.hold(l.data, steps[i], NULL), ST_OK);
+		ledger_close(&l);
+		assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+		assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
+		assert_int_equal(held, steps[i]);
+		ledger_close(&l);
+	}
+	free(path);
+}
+
 static void a_ledger_that_may_not_be_written_says_so(void **state)
 {
 	char *path = path_join(*state, "jobs.db");
@@ -271,6 +295,7 @@ int main(void)
 		T(a_batch_is_written_whole_or_not_at_all),
 		T(what_is_no_ledger_is_refused),
 		T(damage_costs_no_more_than_it_must),
+		T(whether_the_queue_is_held_is_kept),
 		T(a_ledger_that_may_not_be_written_says_so),
 	};
 	return cmocka_run_group_tests_name("ledger", tests, NULL, NULL);

@@ -139,6 +139,43 @@ static void the_top_is_before_all_others(void **state)
 	assert_int_equal(fake_state(f, high), JOB_STARTING);
 }
 
+static void a_held_queue_lets_what_has_begun_end(void **state)
+{
+	struct fake *f = *state;
+	f->limits.jobs = 1;
+	fake_restart(f);
+	int64_t running = fake_submit(f, 0, 1, 0), waits = fake_submit(f, 0, 1, 0);
+	fake_event(f, waits, EV_HOLD);
+	assert_int_equal(queue_hold(f->q, true, NULL), ST_OK);
+	int64_t fresh = fake_submit(f, 0, 1, 0), later = fake_submit(f, 0, 1, fresh);
+	fake_hello(f, running);
+	assert_int_equal(fake_state(f, fresh), JOB_HELD);
+	assert_non_null(strstr(fake_reason(f, fresh), "batten release --all"));
+	/* what ran goes on after a crash, and the queue is held still */
+	fake_restart(f);
+	assert_int_equal(fake_state(f, running), JOB_STARTING);
+	assert_int_equal(fake_state(f, fresh), JOB_HELD);
+	assert_int_equal(fake_state(f, fake_submit(f, 0, 1, 0)), JOB_HELD);
+	fake_hello(f, running);
+	fake_exit(f, running, 1, 0);
+	fake_eof(f, running);
+	fake_event(f, running, EV_RETRY);
+	assert_int_equal(fake_state(f, running), JOB_HELD);
+	/* a job named is let go, the queue is not */
+	fake_event(f, fresh, EV_RELEASE);
+	assert_int_equal(fake_state(f, fresh), JOB_STARTING);
+	fake_success(f, fresh);
+	assert_int_equal(fake_state(f, later), JOB_HELD);
+	f->full = true;
+	assert_int_equal(queue_hold(f->q, false, NULL), ST_RESOURCE);
+	assert_int_equal(queue_hold(f->q, true, NULL), ST_OK);
+	f->full = false;
+	assert_int_equal(queue_hold(f->q, false, NULL), ST_OK);
+	fake_event(f, later, EV_RELEASE);
+	assert_int_equal(fake_state(f, later), JOB_STARTING);
+	assert_int_equal(fake_state(f, fake_submit(f, 0, 1, 0)), JOB_QUEUED);
+}
+
 static void what_ran_goes_on_as_the_setting_says(void **state)
 {
 	static const struct {
@@ -223,6 +260,7 @@ int main(void)
 		T(no_job_starts_without_room),
 		T(any_end_is_waited_for),
 		T(the_top_is_before_all_others),
+		T(a_held_queue_lets_what_has_begun_end),
 		T(what_ran_goes_on_as_the_setting_says),
 		T(earlier_jobs_say_how_long_it_takes),
 	};
