@@ -6,6 +6,7 @@
 
 #include "camera.h"
 #include "colormap.h"
+#include "curvature.h"
 #include "model.h"
 
 enum line_type { LINE_SOLID, LINE_DASHED, LINE_DOTTED };
@@ -43,24 +44,6 @@ struct Ful {
 };
 
 bool ful_is_curve(const struct Ful *f); /* curve or curve on surface */
-
-enum quantity {
-	QUANTITY_K,
-	QUANTITY_H,
-	QUANTITY_KABS,
-	QUANTITY_KMAX,
-	QUANTITY_KMIN,
-	QUANTITY_KN_U,
-	QUANTITY_KN_V,
-	N_QUANTITIES
-};
-
-struct quantity_row {
-	const char *title, *symbol, *channel; /* "Gaussian curvature", "K", EXR channel "K" */
-	bool is_signed;
-	int power; /* of 1 / length: 2 of K, 1 of the others */
-};
-extern const struct quantity_row quantity_table[N_QUANTITIES];
 
 enum overlay_kind { OVERLAY_MAP, OVERLAY_LINES, OVERLAY_IMAGE };
 
