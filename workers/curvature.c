@@ -353,6 +353,7 @@ const struct worker worker = {
 	        "parameters: image x is u, image y is v with v upward, both ends of the domain "
 	        "included. With --view also as seen from a camera.",
 	.scene = false,
+	.units_are_output = true,
 	.params = params,
 	.outputs = outputs,
 	.begin = curvature_begin,

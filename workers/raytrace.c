@@ -293,6 +293,7 @@ const struct worker worker = {
 	.help = "The surfaces themselves ray traced, no triangles: shadows, mirrors, and light "
 	        "stripes that show where a surface is not fair.",
 	.scene = true,
+	.units_are_output = true,
 	.params = raytrace_params,
 	.outputs = raytrace_outputs,
 	.begin = raytrace_begin,

@@ -311,6 +311,7 @@ const struct worker worker = {
 	.help = "The surfaces seen from a camera with one light: color, depth, exact normals and "
 	        "points of every pixel.",
 	.scene = true,
+	.units_are_output = true,
 	.params = shading_params,
 	.outputs = shading_outputs,
 	.begin = shading_begin,

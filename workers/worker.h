@@ -49,11 +49,12 @@ struct worker_output {
 struct work;
 
 struct worker {
-	const char *name;  /* "curvature": the executable is batten-curvature */
-	const char *title; /* "curvature map" */
-	int version;       /* raised when results change */
-	const char *help;  /* a sentence or two: what it makes */
-	bool scene;        /* all surfaces named make one job; else one job a surface */
+	const char *name;      /* "curvature": the executable is batten-curvature */
+	const char *title;     /* "curvature map" */
+	int version;           /* raised when results change */
+	const char *help;      /* a sentence or two: what it makes */
+	bool scene;            /* all surfaces named make one job; else one job a surface */
+	bool units_are_output; /* the outputs take about as much room as the units' bytes */
 	const struct param *params;
 	const struct worker_output *outputs;
 

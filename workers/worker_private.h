@@ -186,6 +186,10 @@ bool output_wanted(const struct work *w, const struct worker_output *row);
 enum status outputs_commit(struct work *w);
 void outputs_abandon(struct work *w);
 
+/* Is there room for n_left units more and for the outputs? Judged by the units that are there.
+ * Errors: ST_RESOURCE (no; how much is wanted where). */
+enum status room_check(const struct work *w, const char *part, size_t n_left);
+
 /* ---- the two fronts ---- */
 
 int hand_main(const struct task *t);

@@ -7,6 +7,9 @@
 #include "path.h"
 #include "worker_private.h"
 
+/* Units done before the room is judged: one of so many, so many at most. */
+enum { SAMPLE_SHARE = 16, SAMPLE_MAX = 64 };
+
 static void run_say(void *data, enum report_level level, enum status st, const char *text)
 {
 	struct run *run = data;
@@ -131,7 +134,27 @@ static bool mine(const struct task *t, size_t unit)
 	return t->n_shards == 0 || unit % t->n_shards == t->shard;
 }
 
-static enum status do_units(struct work *w)
+/* Some from all over come first: what they take tells what all will. */
+static size_t spread_first(struct missing *m)
+{
+	size_t n = m->n / SAMPLE_SHARE;
+	if (n > SAMPLE_MAX)
+		n = SAMPLE_MAX;
+	for (size_t i = 0; i < n; i++) {
+		size_t from = i * (m->n / n), unit = m->units[from];
+		memmove(m->units + i + 1, m->units + i, (from - i) * sizeof *m->units);
+		m->units[i] = unit;
+	}
+	return n;
+}
+
+static enum status do_missing(struct work *w, const struct missing *m, size_t from, size_t n)
+{
+	struct missing some = { .work = w, .units = m->units + from, .n = n };
+	return n ? parallel_run(w->threads, n, &w->private->run->stop, do_unit, &some) : ST_OK;
+}
+
+static enum status do_units(struct work *w, const char *part)
 {
 	struct work_private *p = w->private;
 	size_t n_mine = 0;
@@ -151,9 +174,12 @@ static enum status do_units(struct work *w)
 	p->n_units = n_mine;
 	atomic_store(&p->n_done, n_mine - m.n);
 	meter_set(&p->run->meter, "computing", n_mine - m.n, n_mine);
-	enum status st = ST_OK;
-	if (m.n > 0)
-		st = parallel_run(w->threads, m.n, &p->run->stop, do_unit, &m);
+	size_t first = spread_first(&m);
+	enum status st = do_missing(w, &m, 0, first);
+	if (st == ST_OK)
+		st = room_check(w, part, m.n - first);
+	if (st == ST_OK)
+		st = do_missing(w, &m, first, m.n - first);
 	free(m.units);
 	return st;
 }
@@ -239,7 +265,9 @@ static enum status compute(struct work *w, const char *part)
 	if (st == ST_OK)
 		st = open_part(w, part);
 	if (st == ST_OK)
-		st = do_units(w);
+		st = do_units(w, part);
+	if (st == ST_OK && p->task->n_shards == 0)
+		st = room_check(w, part, 0);
 	if (st == ST_OK && p->task->n_shards == 0)
 		st = finish(w);
 	if (st == ST_CANCELLED && p->part && part_count(p->part) > 0)

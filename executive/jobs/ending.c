@@ -136,6 +136,8 @@ void job_gone(struct job *job)
 	if (complete && cause != CAUSE_FAULT && !job->error) {
 		job_enter(job, JOB_DONE);
 		job_reason(job, NULL);
+		if (job->q->ports.size)
+			job->stats.bytes = job->q->ports.size(job->q->ports.room_data, &job->stats);
 		history_add(job);
 	} else if (cause == CAUSE_KILL) {
 		job_enter(job, JOB_KILLED);

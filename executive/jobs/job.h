@@ -23,6 +23,7 @@ struct pool {
 	int threads;               /* of those */
 	int64_t memory_mib;        /* of jobs with a process */
 	int64_t room_mib;          /* that blocked found on its disk and were too few; -1 */
+	int64_t wanted_mib;        /* instead of those */
 };
 
 /* What the jobs of a worker took, for those of which no progress is known yet. */
@@ -31,6 +32,15 @@ struct history {
 	double seconds, units; /* of all of them; seconds of one thread */
 	int jobs;
 };
+
+/* What the outputs of a job took, for those like it: same worker, same parameters. */
+struct likeness {
+	char *worker;       /* owned */
+	json_t *parameters; /* owned */
+	int64_t bytes;      /* the largest */
+};
+
+enum { LIKENESSES = 64 };
 
 /* So many at once, then so many a second. */
 struct bucket {
@@ -90,6 +100,8 @@ struct queue {
 	double look_at;          /* when to look for room on a disk again */
 	struct history *history; /* owned */
 	int n_history;
+	struct likeness likenesses[LIKENESSES]; /* a ring */
+	int next_likeness;
 	double sync_at;  /* when the ends of jobs must be on the disk */
 	int64_t sync_id; /* one of those jobs */
 };
@@ -118,6 +130,7 @@ void job_gone(struct job *job); /* its final state, or queued again */
 /* history.c */
 void history_add(struct job *job);             /* it is done */
 double history_seconds(const struct job *job); /* that it will run, NaN: not known */
+int64_t history_bytes(const struct job *job);  /* that it will write, 0: not known */
 void history_finish(struct queue *q);
 
 /* packets.c */

@@ -9,6 +9,8 @@
 /* A disk that is full is looked at again each second. */
 static const double look_s = 1;
 
+enum { MIB = 1 << 20 };
+
 /* Those put first, then by priority, then by age. */
 static bool before(const struct job *a, const struct job *b)
 {
@@ -98,10 +100,13 @@ static bool memory_free(const struct queue *q, const struct job *job)
 /* Is there room for what it makes? Looked at only when it could start otherwise. */
 static bool disk_free(struct queue *q, struct pool *pool, struct job *job)
 {
-	int64_t mib = q->ports.room ? q->ports.room(q->ports.room_data, &job->stats) : -1;
-	if (mib < 0 || mib >= q->limits.disk_floor_mib)
+	int64_t floor = q->limits.disk_floor_mib;
+	int64_t wanted = floor + (history_bytes(job) + MIB - 1) / MIB;
+	int64_t mib = floor && q->ports.room ? q->ports.room(q->ports.room_data, &job->stats) : -1;
+	if (mib < 0 || mib >= wanted)
 		return true;
 	pool->room_mib = mib;
+	pool->wanted_mib = wanted;
 	q->look_at = queue_now(q) + look_s;
 	return false;
 }
@@ -286,8 +291,10 @@ void line_reason(struct job *job)
 		           (long long)pool->memory_mib, (long long)q->limits.memory_mib,
 		           (long long)job_memory_mib(job));
 	else if (pool->blocked == job && pool->room_mib >= 0)
-		job_reason(job, "disk: %lld MiB left where it writes, %lld wanted; make room",
-		           (long long)pool->room_mib, (long long)q->limits.disk_floor_mib);
+		job_reason(job, "disk: %lld MiB left where it writes, %lld wanted%s; make room",
+		           (long long)pool->room_mib, (long long)pool->wanted_mib,
+		           pool->wanted_mib > q->limits.disk_floor_mib ? " by what its like took"
+		                                                       : "");
 	else if (pool->blocked)
 		job_reason(job, "behind job %lld", (long long)pool->blocked->stats.id);
 	else

@@ -41,7 +41,9 @@ struct queue_ports {
 	void *told_data;
 	/* MiB free where a job writes, -1: not known. NULL: nobody looks. */
 	int64_t (*room)(void *data, const struct Stats *s);
-	void *room_data;
+	/* Bytes of the files it made, -1: not known. NULL: nobody looks. */
+	int64_t (*size)(void *data, const struct Stats *s);
+	void *room_data; /* of both */
 };
 
 struct queue; /* opaque */

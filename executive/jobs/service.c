@@ -57,6 +57,19 @@ static int64_t room_left(void *data, const struct Stats *job)
 	return here < 0 || (there >= 0 && there < here) ? there : here;
 }
 
+static int64_t output_size(void *data, const struct Stats *job)
+{
+	int64_t bytes = 0;
+	struct stat s;
+	(void)data;
+	for (int i = 0; i < job->n_outputs; i++) {
+		if (stat(job->outputs[i].path, &s))
+			return -1;
+		bytes += s.st_size;
+	}
+	return bytes;
+}
+
 static void hooks_told(struct server *s, const struct Stats *job)
 {
 	bool all_done;
@@ -280,6 +293,7 @@ static enum status server_open(struct server *s, const struct settings *settings
 		.told = on_told,
 		.told_data = s,
 		.room = room_left,
+		.size = output_size,
 		.room_data = s,
 	};
 	char *path = path_join(s->project->hidden, "jobs.db");

@@ -25,7 +25,7 @@ void stats_init(struct Stats *s)
 {
 	memset(s, 0, sizeof *s);
 	s->eta_s = s->wall_s = s->suspended_s = s->cpu_s = NAN;
-	s->peak_kib = -1;
+	s->peak_kib = s->bytes = -1;
 }
 
 void stats_drop_outputs(struct Stats *s)
@@ -38,6 +38,7 @@ void stats_drop_outputs(struct Stats *s)
 	free(s->outputs);
 	s->outputs = NULL;
 	s->n_outputs = 0;
+	s->bytes = -1;
 }
 
 void stats_finish(struct Stats *s)
@@ -294,6 +295,7 @@ static void write_all(const struct writer *w, const struct Stats *s)
 	write_integer(w, "peak_kib", s->peak_kib, s->peak_kib >= 0);
 	write_inputs(w, s);
 	write_outputs(w, s);
+	write_integer(w, "bytes", s->bytes, s->bytes >= 0);
 	write_text(w, "log", s->log);
 	write_text(w, "on", s->on || w->brief ? s->on : "local");
 	write_integer(w, "shards", stats_processes(s), s->shards > 1 || !w->brief);
@@ -439,6 +441,7 @@ enum status stats_from_json(struct Stats *s, const json_t *o)
 	s->suspended_s = json_number(o, "suspended_s", NAN);
 	s->cpu_s = json_number(o, "cpu_s", NAN);
 	s->peak_kib = json_int(o, "peak_kib", -1);
+	s->bytes = json_int(o, "bytes", -1);
 	s->threads = (int)json_int(o, "threads", 0);
 	s->memory_mib = json_int(o, "memory_mib", 0);
 	s->force = json_flag(o, "force", false);

@@ -63,6 +63,7 @@ struct Stats {
 	int n_inputs;
 	struct job_output *outputs;
 	int n_outputs;
+	int64_t bytes;      /* of its outputs, -1: not known */
 	json_t *parameters; /* owned object of strings */
 	char *output;       /* basic name, absolute */
 	int64_t *after;     /* ids it waits for */
@@ -87,7 +88,7 @@ enum status stats_copy(struct Stats *out, const struct Stats *s);
 
 /* The object that jobs --json shows (DESIGN: id worker state color fraction eta_s file_name
  * path_name pid host group reason wall_s suspended_s cpu_s peak_kib inputs outputs log), plus
- * on, shards, partition, account, time, priority, done, total, phase, after, after_any,
+ * bytes, on, shards, partition, account, time, priority, done, total, phase, after, after_any,
  * wall_limit_s, parameters, output, threads, memory_mib, force, submitted,
  * started, ended. New reference; NULL for want of memory. */
 json_t *stats_to_json(const struct Stats *s);

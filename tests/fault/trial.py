@@ -31,7 +31,7 @@ DISK_MIB = 256
 GUARD_S = 120
 # Why a job may fail while these faults are about; anything else is untrue.
 REASONS = re.compile("|".join((
-    "killed from outside", "ended by signal 15", "does not take START", "No space left", "disk is full", "Read-only", "Permission denied", "Is a directory",
+    "killed from outside", "not enough room", "ended by signal 15", "does not take START", "No space left", "disk is full", "Read-only", "Permission denied", "Is a directory",
     "File too large", "stopped from outside", "is full", "no HELLO", "file size", "killed by you", "in use",
     "did not end within", "may not be written", "closed its pipe", "was cut short meanwhile", "not run: job [0-9]+", "times; 'batten retry",
 )))

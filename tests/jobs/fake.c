@@ -146,6 +146,13 @@ static int64_t fake_room(void *data, const struct Stats *s)
 	return f->room;
 }
 
+static int64_t fake_size(void *data, const struct Stats *s)
+{
+	struct fake *f = data;
+	(void)s;
+	return f->size;
+}
+
 static void fake_begin(struct fake *f)
 {
 	struct queue_ports ports = {
@@ -155,6 +162,7 @@ static void fake_begin(struct fake *f)
 		.told = fake_told,
 		.told_data = f,
 		.room = fake_room,
+		.size = fake_size,
 		.room_data = f,
 	};
 	assert_int_equal(queue_create(&f->q, &ports, &f->limits), ST_OK);
@@ -187,6 +195,7 @@ void fake_init(struct fake *f)
 		            .end_grace = 5 },
 		.now = 100,
 		.room = -1,
+		.size = -1,
 	};
 	fake_begin(f);
 }
@@ -215,8 +224,10 @@ static int64_t submit(struct fake *f, struct Stats *s)
 	report_store_init(&store);
 	s->worker = worker;
 	s->output = output;
+	s->parameters = json_object();
 	enum status st = queue_submit(f->q, s, 1, &first, &store.report);
 	queue_turn(f->q);
+	json_decref(s->parameters);
 	return st == ST_OK ? first : 0;
 }
 

@@ -24,6 +24,7 @@ struct fake {
 		bool front, killed;
 	} rows[FAKE_ROWS]; /* the ledger, by id */
 	int64_t room;      /* MiB on the disk; -1: not known */
+	int64_t size;      /* bytes of what a job made; -1: not known */
 	int64_t last;
 	bool held;
 	int unsynced; /* changes since the last durable write */

@@ -95,6 +95,37 @@ static void no_job_starts_without_room(void **state)
 	assert_true(isinf(queue_deadline(f->q)) || queue_deadline(f->q) > f->now + 1);
 }
 
+static void no_job_starts_where_its_like_would_not_fit(void **state)
+{
+	struct fake *f = *state;
+	f->limits.disk_floor_mib = 64;
+	f->limits.jobs = 1;
+	f->room = 1000;
+	f->size = (300 << 20) - 5;
+	fake_restart(f);
+	int64_t first = fake_submit(f, 0, 1, 0), second = fake_submit(f, 0, 1, 0);
+	f->room = 363;
+	fake_success(f, first);
+	assert_int_equal(queue_find(f->q, first)->bytes, f->size);
+	assert_string_equal(fake_reason(f, second),
+	                    "disk: 363 MiB left where it writes, 364 wanted by what its like took; "
+	                    "make room");
+	/* the ledger keeps it */
+	fake_restart(f);
+	assert_int_equal(fake_state(f, second), JOB_QUEUED);
+	f->room = 364;
+	fake_wait(f, 1);
+	assert_int_equal(fake_state(f, second), JOB_STARTING);
+	f->size = 1;
+	fake_success(f, second); /* the largest counts */
+	f->room = 363;
+	int64_t third = fake_submit(f, 0, 1, 0);
+	assert_int_equal(fake_state(f, third), JOB_QUEUED);
+	f->limits.disk_floor_mib = 0;
+	fake_restart(f);
+	assert_int_equal(fake_state(f, third), JOB_STARTING);
+}
+
 static void any_end_is_waited_for(void **state)
 {
 	struct fake *f = *state;
@@ -258,6 +289,7 @@ int main(void)
 		T(a_job_over_its_time_fails_and_says_so),
 		T(a_job_that_ends_in_time_is_left_alone),
 		T(no_job_starts_without_room),
+		T(no_job_starts_where_its_like_would_not_fit),
 		T(any_end_is_waited_for),
 		T(the_top_is_before_all_others),
 		T(a_held_queue_lets_what_has_begun_end),

@@ -18,7 +18,7 @@ static const char full[] =
         "\"peak_kib\":100,\"inputs\":[{\"path\":\"/i/1.base\",\"entity\":null},"
         "{\"path\":\"/i/2.base\",\"entity\":\"D15\"}],"
         "\"outputs\":[{\"path\":\"/o.exr\",\"kind\":\"image\",\"figures\":{\"K_max\":0.1}}],"
-        "\"log\":\"/l\",\"on\":\"slurm\",\"shards\":4,\"partition\":\"p\",\"account\":\"a\","
+        "\"bytes\":1234,\"log\":\"/l\",\"on\":\"slurm\",\"shards\":4,\"partition\":\"p\",\"account\":\"a\","
         "\"time\":\"1:00\",\"priority\":-3,\"done\":1,\"total\":4,\"phase\":\"units\",\"after\":[3,5],"
         "\"after_any\":[4],\"wall_limit_s\":60.5,"
         "\"parameters\":{\"grid\":\"4x4\"},\"output\":\"/o\",\"threads\":2,\"memory_mib\":64,"
