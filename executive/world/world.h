@@ -35,6 +35,11 @@ struct Ful {
 	int id;
 	char *name;           /* owned; basic name, unique in the world */
 	char *file;           /* owned; where it was read from or last saved, NULL: nowhere */
+	int place;            /* among the entities of `file` */
+	bool alone;           /* `file` holds nothing else */
+	char *unit;           /* owned; of lengths: "m", or NULL where it is not known */
+	double unit_in_mm;    /* 0 where not known */
+	double scale;         /* IGES model space scale, 1 otherwise */
 	struct entity entity; /* owned: geometry, trims, the color of its file */
 	struct display display;
 	int copy_of, offset_of, on; /* ids, 0: none; on: the surface a curve on surface lies on */
@@ -44,6 +49,7 @@ struct Ful {
 };
 
 bool ful_is_curve(const struct Ful *f); /* curve or curve on surface */
+bool ful_is_surface(const struct Ful *f);
 
 enum overlay_kind { OVERLAY_MAP, OVERLAY_LINES, OVERLAY_IMAGE };
 
@@ -92,6 +98,8 @@ const char *world_folder(const struct world *w);
 int world_count(const struct world *w);
 const struct Ful *world_at(const struct world *w, int k);     /* k < count, in order of opening */
 const struct Ful *world_by_id(const struct world *w, int id); /* NULL: none */
+/* By its name, by FILE#ENTITY (number, D and Directory Entry number), or by the label of its file where
+ * only one has that. Errors: NULL, and the sentence names what is open. */
 const struct Ful *world_find(const struct world *w, const char *name, const struct report *r);
 const struct Ful *world_current(const struct world *w, bool curve); /* NULL: none */
 unsigned world_revision(const struct world *w); /* grows with every change of anything here */
@@ -109,10 +117,23 @@ enum status world_open(struct world *w, const char *path, const char *entities,
  */
 enum status world_add(struct world *w, const char *what, const char *name, struct entity *e,
                       int *id, const struct report *r);
+/* Where a thing comes from. `on` must be given with a curve on surface. */
+struct origin {
+	int copy_of, offset_of, on; /* ids, 0: none; lengths are in the unit of the first given */
+	double offset;
+};
+/* name NULL: that of its origin, made unique; world_add: origin NULL. The new thing becomes current. */
+enum status world_add_from(struct world *w, const char *what, const char *name, struct entity *e,
+                           const struct origin *from, int *id, const struct report *r);
+/* Results shown with the thing, and marks on it, belong to what it was: they go. */
 enum status world_replace(struct world *w, const char *what, int id, struct entity *e,
                           const struct report *r);
+/* A surface takes the curves on it along. */
 enum status world_remove(struct world *w, const char *what, int id, const struct report *r);
 enum status world_rename(struct world *w, int id, const char *name, const struct report *r);
+/* Edits from begin to end are one step; keep false takes them back, as if they had not been. */
+void world_step_begin(struct world *w, const char *what);
+void world_step_end(struct world *w, bool keep);
 enum status world_undo(struct world *w, const struct report *r);
 enum status world_redo(struct world *w, const struct report *r);
 const char *world_undo_name(const struct world *w); /* "move point 5", NULL: nothing to undo */
@@ -133,13 +154,21 @@ int world_marks(const struct world *w);
 const struct mark *world_mark(const struct world *w, int k);
 void world_drop_marks(struct world *w);
 
-/* Write a thing as NAME.base (path NULL: its own), whole or not at all; it is saved then. */
+/* Write a thing, whole or not at all; it is saved then. path NULL: its own file where that holds nothing
+ * else and has its name, otherwise NAME.base in the project's folder, which must not be there yet. A curve
+ * on surface takes its surface along.
+ * Errors: ST_PARAMETER (no such thing, another's file), ST_INPUT (not writable), ST_RESOURCE. */
 enum status world_save(struct world *w, int id, const char *path, const struct report *r);
 
 /* Defaults of later jobs that setting routines store: "curvature", "grid", "400x200". NULL: none. */
 enum status world_set_default(struct world *w, const char *worker, const char *parameter,
                               const char *value);
 const char *world_default(const struct world *w, const char *worker, const char *parameter);
+
+/* The things as a model, for writers: of each id the geometry, the surface of a curve on surface with it.
+ * The caller finishes *out. Errors: ST_PARAMETER (no such thing, two units), ST_RESOURCE. */
+enum status world_model(const struct world *w, const int *ids, int n, struct model *out,
+                        const struct report *r);
 
 /* The session: what is open, unsaved geometry with it, sight, display, overlays, defaults, in
  * .batten/session; restored at start. Undo does not survive. */

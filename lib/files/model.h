@@ -56,6 +56,9 @@ struct entity {
 void entity_init(struct entity *e, enum entity_kind kind);
 void entity_finish(struct entity *e);
 
+/* All that e owns, twice. *out is fresh, or empty on failure. Errors: ST_RESOURCE. */
+enum status entity_copy(struct entity *out, const struct entity *e);
+
 /* Set or replace. Errors: ST_RESOURCE. */
 enum status entity_set_attribute(struct entity *e, const char *name, const char *value);
 const char *entity_get_attribute(const struct entity *e, const char *name); /* NULL if none */

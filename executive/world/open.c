@@ -1,0 +1,147 @@
+/* open.c - from a geometry file to things. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "path.h"
+#include "text.h"
+#include "world_private.h"
+
+static int count_numbered(const struct model *m)
+{
+	int n = 0;
+
+	for (int k = 0; k < m->n; k++)
+		n += m->entities[k].number > 0;
+	return n;
+}
+
+/* Its place in the file as a name: hull, or hull-3 where the file holds several. */
+static char *file_name_of(const char *basic, bool several, const struct entity *e)
+{
+	if (!several && e->number)
+		return strdup(basic);
+	if (e->number)
+		return text_print("%s-%d", basic, e->number);
+	if (e->de)
+		return text_print("%s-D%d", basic, e->de);
+	return text_print("%s-%s", basic, entity_kind_name(e->kind));
+}
+
+/* Mark in `chosen` what a list of selectors by comma names. */
+static enum status choose(const struct model *m, const char *entities, bool *chosen,
+                          const struct report *r)
+{
+	char *copy = strdup(entities), *rest = copy, *one;
+	enum status st = copy ? ST_OK : out_of_memory(r);
+
+	while (st == ST_OK && (one = strsep(&rest, ","))) {
+		struct entity *e;
+		st = model_find(m, one, &e, r);
+		if (st == ST_OK)
+			chosen[e - m->entities] = true;
+	}
+	free(copy);
+	return st;
+}
+
+/* A curve on surface cannot be without its surface. */
+static void choose_bases(const struct model *m, bool *chosen)
+{
+	for (int k = 0; k < m->n; k++)
+		if (chosen[k] && m->entities[k].kind == ENTITY_CURVE_ON_SURFACE &&
+		    m->entities[k].surface >= 0)
+			chosen[m->entities[k].surface] = true;
+}
+
+static enum status take_one(struct world *w, struct model *m, int k, const char *path,
+                            const char *basic, bool several, int *id)
+{
+	struct entity *e = &m->entities[k];
+	char *wish = file_name_of(basic, several, e);
+	struct Ful *f = NULL;
+	enum status st = wish ? ful_create(w, &f, e) : ST_RESOURCE;
+
+	if (st == ST_OK) {
+		f->alone = !several && k == 0;
+		f->saved = true;
+		f->place = k;
+		f->unit_in_mm = m->unit_in_mm;
+		f->scale = m->scale;
+		f->name = name_unique(w, wish);
+		st = f->name ? model_set_text(&f->unit, m->unit) : ST_RESOURCE;
+		if (st == ST_OK)
+			st = model_set_text(&f->file, path);
+		if (st == ST_OK) {
+			*id = f->id;
+			st = thing_append(w, f);
+		} else
+			ful_destroy(f);
+	}
+	free(wish);
+	return st;
+}
+
+enum status world_take(struct world *w, struct model *m, const char *path, const bool *chosen,
+                       const struct report *r)
+{
+	const int before = w->n;
+	const bool several = count_numbered(m) > 1;
+	char *basic = path_basic_name(path);
+	int *ids = calloc((size_t)m->n + 1, sizeof *ids),
+	    *on = calloc((size_t)m->n + 1, sizeof *on);
+	enum status st = basic && ids && on ? ST_OK : ST_RESOURCE;
+
+	for (int k = 0; k < m->n && st == ST_OK; k++)
+		on[k] = m->entities[k].surface; /* a thing keeps no place in a file */
+	for (int k = 0; k < m->n && st == ST_OK; k++)
+		if (chosen ? chosen[k] : m->entities[k].number > 0)
+			st = take_one(w, m, k, path, basic, several, &ids[k]);
+	for (int k = 0; k < m->n && st == ST_OK; k++)
+		if (ids[k] && on[k] >= 0)
+			thing_get(w, ids[k])->on = ids[on[k]];
+	if (st != ST_OK)
+		while (w->n > before)
+			ful_destroy(w->things[--w->n]);
+	for (int k = before; k < w->n; k++)
+		thing_make_current(w, w->things[k]);
+	w->revision++;
+	free(basic);
+	free(ids);
+	free(on);
+	return st == ST_OK ? st : out_of_memory(r);
+}
+
+enum status world_open(struct world *w, const char *path, const char *entities,
+                       const struct progress *p, const struct report *r)
+{
+	struct model m;
+	char *full = path_absolute(path, w->folder);
+
+	if (!full)
+		return out_of_memory(r);
+	enum status st = model_read(&m, full, p, r);
+	if (st != ST_OK) {
+		free(full);
+		return st;
+	}
+	bool *chosen = calloc((size_t)m.n + 1, sizeof *chosen);
+	if (!chosen)
+		st = out_of_memory(r);
+	for (int k = 0; k < m.n && st == ST_OK && !entities; k++)
+		chosen[k] = m.entities[k].number > 0;
+	if (st == ST_OK && entities)
+		st = choose(&m, entities, chosen, r);
+	if (st == ST_OK) {
+		choose_bases(&m, chosen);
+		st = world_take(w, &m, full, chosen, r);
+	}
+	for (int k = 0; k < m.n_warnings; k++)
+		report_warning(r, "%s", m.warnings[k]);
+	for (int k = 0; k < m.n_skipped; k++)
+		report_warning(r, "skipped %d of type %d from D%d: %s", m.skipped[k].count,
+		               m.skipped[k].type, m.skipped[k].first_de, m.skipped[k].reason);
+	free(chosen);
+	free(full);
+	model_finish(&m);
+	return st;
+}

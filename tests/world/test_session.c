@@ -1,0 +1,224 @@
+/* test_session.c - a world kept and found again, and sessions that are damaged. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base.h"
+#include "file.h"
+#include "open.h"
+#include "path.h"
+
+static int setup(void **state)
+{
+	static struct place p;
+
+	place_init(&p);
+	*state = &p;
+	return 0;
+}
+
+static int teardown(void **state)
+{
+	place_finish(*state);
+	return 0;
+}
+
+static void restart(struct place *p)
+{
+	world_destroy(p->world);
+	assert_int_equal(world_create(&p->world, p->folder), ST_OK);
+	report_store_init(&p->said);
+	assert_int_equal(world_restore_session(p->world, &p->said.report), ST_OK);
+}
+
+/* The bytes of a thing's geometry. */
+static char *bytes_of(const struct world *w, const struct Ful *f)
+{
+	struct model m;
+	struct text t = { 0 };
+
+	assert_int_equal(world_model(w, &f->id, 1, &m, NULL), ST_OK);
+	base_format(&m, &t);
+	model_finish(&m);
+	return text_take(&t);
+}
+
+static void test_round_trip(void **state)
+{
+	struct place *p = *state;
+	const struct report *r = &p->said.report;
+	struct entity e;
+	int line;
+
+	place_spheres(p, "two.base", 2);
+	place_diagonal(p, "diagonal.base");
+	assert_int_equal(world_open(p->world, "two.base", "2", NULL, r), ST_OK);
+	assert_int_equal(world_open(p->world, "diagonal.base", "1", NULL, r), ST_OK);
+	const int ball = world_find(p->world, "two-2", r)->id;
+	place_sphere(&e, 0.1);
+	assert_int_equal(world_replace(p->world, "edit", ball, &e, r), ST_OK);
+	place_line(&e, 1.0 / 3);
+	assert_int_equal(world_add(p->world, "line", "rod", &e, &line, r), ST_OK);
+	struct display d = world_by_id(p->world, line)->display;
+	d.line = LINE_DOTTED;
+	d.porcupine = true;
+	d.has_color = true;
+	d.color = (struct rgb){ 0.25, 0.5, 1 };
+	assert_int_equal(world_set_display(p->world, line, &d), ST_OK);
+	struct sight *s = world_sight(p->world);
+	s->has_camera = true;
+	s->camera = (struct camera){ .kind = CAMERA_PERSPECTIVE, .eye = { 1, 2, 3 }, .half = 0.5 };
+	s->bell = false;
+	assert_int_equal(world_set_default(p->world, "curvature", "grid", "64x32"), ST_OK);
+	char *map = place_path(p, "two.base"); /* any file that is there */
+	assert_int_equal(world_show(p->world, &(struct overlay){ .kind = OVERLAY_MAP,
+	                                                         .thing = ball,
+	                                                         .file = map,
+	                                                         .quantity = QUANTITY_KMIN,
+	                                                         .range_given = true,
+	                                                         .lo = -2,
+	                                                         .hi = 2 }),
+	                 ST_OK);
+	assert_int_equal(world_show(p->world, &(struct overlay){ .kind = OVERLAY_LINES,
+	                                                         .thing = ball,
+	                                                         .file = "/gone.isophote" }),
+	                 ST_OK);
+	assert_int_equal(world_keep_mark(p->world, &(struct mark){ ball, 0.125, 3 }), ST_OK);
+	char *before[8];
+	const int n = world_count(p->world);
+	for (int k = 0; k < n; k++)
+		before[k] = bytes_of(p->world, world_at(p->world, k));
+
+	assert_int_equal(world_keep_session(p->world, r), ST_OK);
+	restart(p);
+	assert_int_equal(world_count(p->world), n);
+	for (int k = 0; k < n; k++) {
+		char *after = bytes_of(p->world, world_at(p->world, k));
+		assert_string_equal(after, before[k]);
+		free(after);
+		free(before[k]);
+	}
+	assert_int_equal(world_find(p->world, "two-2", r)->id, ball);
+	assert_false(world_by_id(p->world, ball)->saved);
+	assert_true(world_find(p->world, "diagonal", r)->saved);
+	assert_int_equal(world_find(p->world, "diagonal", r)->on,
+	                 world_find(p->world, "diagonal-surface", r)->id);
+	assert_int_equal(world_current(p->world, false)->id, ball);
+	assert_ptr_equal(world_find(p->world, "two.base#2", r), world_by_id(p->world, ball));
+	assert_int_equal(world_current(p->world, true)->id, line);
+	assert_string_equal(world_by_id(p->world, line)->unit, "m");
+	const struct display *shown = &world_by_id(p->world, line)->display;
+	assert_int_equal(shown->line, LINE_DOTTED);
+	assert_true(shown->porcupine && shown->has_color && shown->color.g == 0.5);
+	assert_true(world_sight(p->world)->has_camera && world_sight(p->world)->camera.eye.y == 2);
+	assert_false(world_sight(p->world)->bell);
+	assert_string_equal(world_default(p->world, "curvature", "grid"), "64x32");
+	assert_int_equal(world_overlays(p->world), 1);
+	assert_true(world_overlay(p->world, 0)->range_given &&
+	            world_overlay(p->world, 0)->lo == -2);
+	assert_int_equal(world_marks(p->world), 1);
+	assert_non_null(strstr(p->said.warning, "/gone.isophote"));
+	assert_null(world_undo_name(p->world));
+
+	/* a new thing gets a number that none had */
+	place_line(&e, 1);
+	int fresh;
+	assert_int_equal(world_add(p->world, "line", NULL, &e, &fresh, r), ST_OK);
+	assert_true(fresh > line);
+	free(map);
+}
+
+/* Kept geometry that is no longer needed goes with the next keeping. */
+static void test_sweep(void **state)
+{
+	struct place *p = *state;
+	const struct report *r = &p->said.report;
+	struct entity e;
+	int id;
+
+	place_line(&e, 1);
+	assert_int_equal(world_add(p->world, "line", "rod", &e, &id, r), ST_OK);
+	assert_int_equal(world_keep_session(p->world, r), ST_OK);
+	assert_int_equal(world_save(p->world, id, NULL, r), ST_OK);
+	assert_int_equal(world_keep_session(p->world, r), ST_OK);
+	char *folder = place_path(p, ".batten/session"), *file = place_path(p, "rod.base");
+	assert_int_equal(rmdir(folder), -1); /* session.json is there */
+	char *session = path_join(folder, "session.json");
+	assert_int_equal(unlink(session), 0);
+	assert_int_equal(rmdir(folder), 0); /* and nothing else was */
+	assert_true(path_exists(file));
+	free(session);
+	free(folder);
+	free(file);
+}
+
+static void test_missing_files(void **state)
+{
+	struct place *p = *state;
+	const struct report *r = &p->said.report;
+
+	place_spheres(p, "two.base", 2);
+	place_diagonal(p, "diagonal.base");
+	assert_int_equal(world_open(p->world, "two.base", NULL, NULL, r), ST_OK);
+	assert_int_equal(world_open(p->world, "diagonal.base", NULL, NULL, r), ST_OK);
+	assert_int_equal(world_keep_session(p->world, r), ST_OK);
+	char *path = place_path(p, "diagonal.base");
+	assert_int_equal(unlink(path), 0);
+	place_spheres(p, "two.base", 1);
+	restart(p);
+	assert_int_equal(world_count(p->world), 1);
+	assert_string_equal(world_current(p->world, false)->name, "two-1");
+	assert_null(world_current(p->world, true));
+	assert_true(p->said.n_warnings >= 2);
+	free(path);
+}
+
+static void test_damaged(void **state)
+{
+	struct place *p = *state;
+	char *folder = place_path(p, ".batten/session"), *path = path_join(folder, "session.json");
+	static const struct {
+		const char *text;
+		enum status st;
+	} cases[] = {
+		{ "", ST_INPUT },
+		{ "[]", ST_INPUT },
+		{ "{\"things\":[", ST_INPUT },
+		{ "{}", ST_OK },
+		{ "{\"things\":7,\"sight\":[],\"overlays\":{},\"marks\":\"x\",\"defaults\":[[1],2]}",
+		  ST_OK },
+		{ "{\"things\":[7,{},{\"kept\":\"../../x\"},{\"file\":9}],\"current\":[\"a\"]}",
+		  ST_OK },
+		{ "{\"things\":[{\"file\":\"/nowhere\",\"on\":-5,\"number\":1e99}],\"last_id\":-1}",
+		  ST_OK },
+	};
+
+	assert_int_equal(folder_make(folder, 0777, NULL), ST_OK);
+	for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+		struct world *w;
+		assert_int_equal(file_write(path, cases[k].text, strlen(cases[k].text), NULL),
+		                 ST_OK);
+		assert_int_equal(world_create(&w, p->folder), ST_OK);
+		assert_int_equal(world_restore_session(w, NULL), cases[k].st);
+		assert_int_equal(world_count(w), 0);
+		world_destroy(w);
+	}
+	free(path);
+	free(folder);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(test_round_trip, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_sweep, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_missing_files, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_damaged, setup, teardown),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
