@@ -91,6 +91,23 @@ static enum status make_curve(const struct pieces *p, struct curve *out)
 	return ST_OK;
 }
 
+enum status hermite_breaks(const struct curve *c, int least, double **out, int *n)
+{
+	double *b = calloc((size_t)c->n + 2, sizeof *b);
+	if (!b)
+		return ST_RESOURCE;
+	int spans = knots_breaks(c->order, c->n, c->knots, c->domain[0], c->domain[1], b) - 1;
+	int each = (least + spans - 1) / spans;
+	*n = spans * each + 1;
+	*out = calloc((size_t)*n, sizeof **out);
+	for (int i = 0; *out && i < *n; i++) {
+		int k = i / each < spans ? i / each : spans - 1;
+		(*out)[i] = b[k] + (b[k + 1] - b[k]) * (i - k * each) / each;
+	}
+	free(b);
+	return *out ? ST_OK : ST_RESOURCE;
+}
+
 enum status hermite_fit(const struct hermite *h, const double *breaks, int n, struct vec3 first,
                         struct curve *out, double *worst)
 {

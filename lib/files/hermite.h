@@ -28,4 +28,8 @@ struct hermite {
 enum status hermite_fit(const struct hermite *h, const double *breaks, int n, struct vec3 first,
                         struct curve *out, double *worst);
 
+/* Breaks of a curve, and more between them where they are fewer than `least`, for hermite_fit. Fresh.
+ * Errors: ST_RESOURCE. */
+enum status hermite_breaks(const struct curve *c, int least, double **out, int *n);
+
 #endif
