@@ -1,6 +1,7 @@
 /* iges_directory.c - the directory section: two lines an entity, twenty fields of eight columns. */
 #include "iges_reader.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -91,6 +92,14 @@ void iges_warn(struct iges *g, enum iges_warning w, int de)
 		g->warned[w].first = de;
 }
 
+void iges_warn_error(struct iges *g, enum iges_warning w, int de, double error)
+{
+	int count = g->warned[w].count;
+	iges_warn(g, w, de);
+	if (g->warned[w].count > count)
+		g->warned[w].error = fmax(g->warned[w].error, error);
+}
+
 enum status iges_say_warnings(struct iges *g)
 {
 	static const char *const text[N_IGES_WARNINGS] = {
@@ -103,15 +112,13 @@ enum status iges_say_warnings(struct iges *g)
 		                      "found by the data's own pointers back",
 		[WARN_WEIGHTS] = "weights that are all zero and the flag of a polynomial; "
 		                 "weights of 1 are taken",
-		[WARN_RULED] =
-		        "ruled by equal arc length; read as ruled by equal parameters, which "
-		        "differs inside the surface",
-		[WARN_OFFSET] = "an offset surface, which is approximated",
+		[WARN_RULED] = "ruled by curves that do not run alike; approximated",
+		[WARN_OFFSET] = "an offset surface; approximated",
 		[WARN_SEQUENCE] = "two directory lines that name different types",
 		[WARN_TWO_COURSES] = "loops whose curves in u,v and in space disagree; those in "
 		                     "space are taken",
-		[WARN_PARAMETERS] = "loops given only in parameters that are not the ones of the "
-		                    "spline it became; they may be off inside it",
+		[WARN_PARAMETERS] = "loops given only in the parameters of a plane, which the "
+		                    "standard leaves open; lengths along its edges are taken",
 		[WARN_FAR] = "trimmed by curves that do not lie on it; they are brought down to it",
 		[WARN_UNPLACED] = "a subfigure that nothing places; its members are read as they "
 		                  "stand",
@@ -120,9 +127,12 @@ enum status iges_say_warnings(struct iges *g)
 		int n = g->warned[w].count;
 		if (!n)
 			continue;
-		enum status st =
-		        model_warn(g->m, "%d %s (the first is D%d): %s", n,
-		                   n == 1 ? "entity" : "entities", g->warned[w].first, text[w]);
+		char within[48] = "";
+		if (g->warned[w].error > 0)
+			snprintf(within, sizeof within, " to within %.1e", g->warned[w].error);
+		enum status st = model_warn(g->m, "%d %s (the first is D%d): %s%s", n,
+		                            n == 1 ? "entity" : "entities", g->warned[w].first,
+		                            text[w], within);
 		if (st != ST_OK)
 			return st;
 	}

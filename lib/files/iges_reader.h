@@ -104,6 +104,7 @@ struct iges {
 	int far;        /* the last P line reached, for progress */
 	struct {
 		int count, first;
+		double error; /* the largest, of what is approximated */
 	} warned[N_IGES_WARNINGS];
 	struct iges_edges edges; /* the list last looked at */
 	struct {
@@ -134,6 +135,8 @@ enum status iges_read_header(struct iges *g);
 enum status iges_read_directory(struct iges *g);
 struct iges_entry *iges_entry(struct iges *g, int de); /* NULL where there is none */
 void iges_warn(struct iges *g, enum iges_warning w, int de);
+/* Of an approximation, with the error that it has. */
+void iges_warn_error(struct iges *g, enum iges_warning w, int de, double error);
 enum status iges_say_warnings(struct iges *g);
 
 /* iges_cursor.c: parameters of one entity, one after the other. */
@@ -221,5 +224,6 @@ bool iges_is_points(const struct iges_entry *e);
 enum status iges_spline_curve(struct iges_cursor *c, struct curve *out);
 enum status iges_spline_surface(struct iges_cursor *c, struct surface *out);
 enum status iges_plane(struct iges_cursor *c, int depth, struct surface *out);
+enum status iges_ruled(struct iges_cursor *c, int depth, struct surface *out);
 
 #endif

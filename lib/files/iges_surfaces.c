@@ -1,4 +1,5 @@
-/* iges_surfaces.c - surfaces 114 118 120 122 128 140 as NURBS; planes are in iges_planes.c. */
+/* iges_surfaces.c - surfaces 114 120 122 128 140 as NURBS; planes are in iges_planes.c,
+ * ruled ones in iges_ruled.c. */
 #include "iges_reader.h"
 
 #include <stdlib.h>
@@ -43,40 +44,6 @@ static enum status read_power(struct iges_cursor *c, int depth, struct surface *
 		                        &c->g->store.report);
 	free(u);
 	free(k);
-	return st;
-}
-
-/* Arcs and lines have the same course of length whatever they are: equal parameters then are equal
- * arc lengths. */
-static bool same_course(struct iges *g, int a, int b)
-{
-	const struct iges_entry *x = iges_entry(g, a), *y = iges_entry(g, b);
-	return x && y && x->type == 110 && y->type == 110;
-}
-
-/* 118: two curves, whether the second is turned, developable. Form 1: by equal parameters. */
-static enum status read_ruled(struct iges_cursor *c, int depth, struct surface *out)
-{
-	struct iges *g = c->g;
-	struct curve a = { 0 }, b = { 0 };
-	int first = iges_int(c), second = iges_int(c), turned = iges_int(c);
-	iges_int(c);
-	enum status st = c->st;
-	if (st == ST_OK)
-		st = iges_curve(g, first, depth + 1, &a, NULL);
-	if (st == ST_OK)
-		st = iges_curve(g, second, depth + 1, &b, NULL);
-	if (st == ST_OK) {
-		if (turned)
-			curve_reverse(&b);
-		curve_reparametrise(&a, 0, 1);
-		curve_reparametrise(&b, 0, 1);
-		st = iges_pass(g, make_ruled(out, &a, &b));
-		if (iges_entry(g, c->de)->form == 0 && !same_course(g, first, second))
-			iges_warn(g, WARN_RULED, c->de);
-	}
-	curve_finish(&a);
-	curve_finish(&b);
 	return st;
 }
 
@@ -158,7 +125,7 @@ static enum status read_offset(struct iges_cursor *c, int depth, struct surface 
 		double side = vec3_dot(normal, vec3(p[0], p[1], p[2])) < 0 ? -1 : 1;
 		st = make_offset(out, &s, side * p[3], iges_tolerance(g, surface_size(&s)), &error,
 		                 &g->store.report);
-		iges_warn(g, WARN_OFFSET, c->de);
+		iges_warn_error(g, WARN_OFFSET, c->de, error);
 	}
 	surface_finish(&s);
 	return st;
@@ -168,7 +135,7 @@ static const struct {
 	int type;
 	enum status (*read)(struct iges_cursor *c, int depth, struct surface *out);
 } surfaces[] = {
-	{ 108, iges_plane },      { 114, read_power },    { 118, read_ruled },
+	{ 108, iges_plane },      { 114, read_power },    { 118, iges_ruled },
 	{ 120, read_revolution }, { 122, read_cylinder }, { 128, read_spline },
 	{ 140, read_offset },     { 190, iges_plane },
 };

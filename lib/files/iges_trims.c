@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "iges_course.h"
 #include "project.h"
 #include "refine.h"
 
@@ -16,7 +17,8 @@ struct trimmer {
 	const struct surface *s;
 	struct projector *p; /* owned */
 	double size, tolerance;
-	bool exact; /* the file's parameters are those of s */
+	struct iges_course course[2]; /* owned; of the file's u and v */
+	bool known, equal; /* the standard tells the file's parameters; they are those of s */
 };
 
 /* ---- curves of the file, composites taken apart */
@@ -91,6 +93,8 @@ static enum status add_uv(struct trimmer *t, int de, struct trim_loop *loop)
 	for (int i = first; st == ST_OK && i < loop->n; i++)
 		for (int k = 0; k < loop->curves[i].n; k++)
 			loop->curves[i].points[4 * (size_t)k + 2] = 0;
+	for (int i = first; st == ST_OK && !t->equal && i < loop->n; i++)
+		st = iges_course_bring(t->course, t->s, t->tolerance, &loop->curves[i]);
 	return st;
 }
 
@@ -257,11 +261,11 @@ static enum status add_piece(struct trimmer *t, const int *uv, int n, int space,
 	int first = loop->n;
 	enum status st = ST_INPUT;
 	bool given = n > 0 && uv[0] > 0;
-	if (given && (t->exact || !space)) {
+	if (given && (t->equal || !space)) {
 		st = ST_OK;
 		for (int i = 0; i < n && st == ST_OK; i++)
 			st = add_uv(t, uv[i], loop);
-		if (st == ST_OK && !t->exact)
+		if (st == ST_OK && !t->known)
 			iges_warn(t->g, WARN_PARAMETERS, t->g->at);
 		if (st == ST_OK && space)
 			return compare_courses(t, space, reversed, first, loop);
@@ -351,58 +355,25 @@ static enum status loop_508(struct trimmer *t, int de, struct trim_loop *loop)
 
 typedef enum status read_loop(struct trimmer *t, int de, struct trim_loop *loop);
 
-/* Are the file's parameters of a curve, or of a surface, those of what it became? */
-static bool curve_parameters_kept(struct iges *g, int de, int depth)
-{
-	struct iges_cursor c;
-	const struct iges_entry *e = iges_entry(g, de);
-	if (!e || depth > NESTING_MAX || e->type == 100 || e->type == 104)
-		return false;
-	if (e->type != 102)
-		return true;
-	int n = iges_open(g, de, 102, &c) == ST_OK ? iges_count(&c, "count", 0, iges_left(&c)) : 0;
-	bool kept = true;
-	for (int i = 0; i < n && kept && c.st == ST_OK; i++) {
-		int part = iges_int(&c);
-		kept = curve_parameters_kept(g, part, depth + 1);
-	}
-	return kept;
-}
-
-static bool parameters_kept(struct iges *g, int de, int depth)
-{
-	struct iges_cursor c;
-	const struct iges_entry *e = iges_entry(g, de);
-	if (!e || depth > NESTING_MAX || iges_open(g, de, 0, &c) != ST_OK)
-		return false;
-	switch (e->type) {
-	case 114:
-	case 128:
-		return true;
-	case 190:
-		return e->form == 1;
-	case 118: {
-		int a = iges_int(&c), b = iges_int(&c);
-		return curve_parameters_kept(g, a, 0) && curve_parameters_kept(g, b, 0);
-	}
-	case 122:
-		return curve_parameters_kept(g, iges_int(&c), 0);
-	case 140: {
-		double skip[4];
-		iges_few(&c, skip, 4);
-		return parameters_kept(g, iges_int(&c), depth + 1);
-	}
-	}
-	return false;
-}
-
 static enum status trimmer_init(struct trimmer *t, struct iges *g, int de, int base,
                                 const struct surface *s)
 {
 	*t = (struct trimmer){ .g = g, .de = de, .s = s, .size = surface_size(s) };
 	t->tolerance = iges_tolerance(g, t->size);
-	t->exact = parameters_kept(g, base, 0);
-	return projector_create(&t->p, s);
+	enum status st = iges_surface_courses(g, base, t->course, &t->known);
+	if (st == ST_INPUT) {
+		t->known = false; /* curves in space will do */
+		st = ST_OK;
+	}
+	t->equal = t->known && t->course[0].n + t->course[0].n_at + t->course[1].n == 0;
+	return st == ST_OK ? projector_create(&t->p, s) : st;
+}
+
+static void trimmer_finish(struct trimmer *t)
+{
+	iges_course_finish(&t->course[0]);
+	iges_course_finish(&t->course[1]);
+	projector_destroy(t->p);
 }
 
 /* Read one loop into the trim; a lost inner one is counted and leaves the others. */
@@ -505,7 +476,7 @@ enum status iges_trim(struct iges *g, int de, int base, const struct surface *s,
 		st = trim_144(&t, &c, out);
 	else if (st == ST_OK)
 		st = trim_listed(&t, &c, iges_entry(g, de)->type == 510, out);
-	projector_destroy(t.p);
+	trimmer_finish(&t);
 	if (st != ST_OK)
 		trim_finish(out);
 	return st;
@@ -524,7 +495,7 @@ enum status iges_trim_curves(struct iges *g, int de, const struct surface *s, st
 	st = trimmer_init(&t, g, de, base, s);
 	if (st == ST_OK)
 		st = loop_142(&t, de, uv);
-	projector_destroy(t.p);
+	trimmer_finish(&t);
 	if (st != ST_OK)
 		trim_loop_finish(uv);
 	return st;

@@ -1,0 +1,393 @@
+/* test_iges_faces.c - faces, instances and curves on surfaces of IGES files. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "iges_made.h"
+
+/* Faces in every dress, with the area that is left, and where the middle of the surface lies. */
+static const struct {
+	struct made_entity entities[MADE_MAX + 2];
+	double area;
+	struct vec3 p;
+} faces[] = {
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 128, 0, SQUARE },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 100, 0, DISK } },
+	  DISK_L,
+	  { 0.5, 0.5, 0 } },
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 128, 0, SQUARE },
+	    { 142, 0, "142,0,3,0,7,2;" },
+	    { 100, 0, DISK } },
+	  DISK_L,
+	  { 0.5, 0.5, 0 } },
+	/* both courses, that in u,v somewhere else */
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 128, 0, SQUARE },
+	    { 142, 0, "142,0,3,9,7,1;" },
+	    { 100, 0, DISK },
+	    { 100, 0, "100,0.,.5,.5,.6,.5,.6,.5;" } },
+	  DISK_L,
+	  { 0.5, 0.5, 0 } },
+	/* no outer loop: the whole domain is meant */
+	{ { { 144, 0, "144,3,0,1,0,5;" },
+	    { 128, 0, SQUARE },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 100, 0, DISK } },
+	  1 - DISK_L,
+	  { 0.5, 0.5, 0 } },
+	/* a lost inner loop costs itself */
+	{ { { 144, 0, "144,3,1,1,5,99;" },
+	    { 128, 0, SQUARE },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 100, 0, DISK } },
+	  DISK_L,
+	  { 0.5, 0.5, 0 } },
+	{ { { 143, 0, "143,0,3,1,5;" },
+	    { 128, 0, SQUARE },
+	    { 141, 0, "141,0,0,3,1,7,1,0;" },
+	    { 100, 0, DISK } },
+	  DISK_L,
+	  { 0.5, 0.5, 0 } },
+	/* two loops that are not told apart, the inner one first */
+	{ { { 143, 0, "143,1,3,2,5,7;" },
+	    { 128, 0, SQUARE },
+	    { 141, 0, "141,1,2,3,1,9,1,1,9;" },
+	    { 141, 0, "141,1,2,3,1,11,1,1,11;" },
+	    { 100, 0, "100,0.,.5,.5,.6,.5,.6,.5;" },
+	    { 100, 0, DISK } },
+	  DISK_L - M_PI * 0.01,
+	  { 0.5, 0.5, 0 } },
+	{ { { 510, 0, "510,3,1,1,5;" },
+	    { 128, 0, SQUARE },
+	    { 508, 0, "508,1,0,7,1,0,0;" },
+	    { 504, 0, "504,1,9,11,1,11,1;" },
+	    { 100, 0, DISK },
+	    { 502, 0, "502,1,.9,.5,0.;" } },
+	  DISK_L,
+	  { 0.5, 0.5, 0 } },
+	/* a 124 on the face, on its shell, on the solid */
+	{ { { 144, 0, "144,3,1,0,5;", 9 },
+	    { 128, 0, SQUARE },
+	    { 142, 0, "142,0,3,0,7,2;" },
+	    { 100, 0, DISK },
+	    { 124, 0, MOVE } },
+	  DISK_L,
+	  { 10.5, 20.5, 30 } },
+	{ { { 510, 0, "510,3,1,1,5;" },
+	    { 128, 0, SQUARE },
+	    { 508, 0, "508,1,0,7,1,1,1,0,9;" },
+	    { 504, 0, "504,1,9,0,0,0,0;" },
+	    { 100, 0, DISK },
+	    { 514, 0, "514,1,1,1;", 15 },
+	    { 186, 0, "186,11,1,0;", 17 },
+	    { 124, 0, MOVE },
+	    { 124, 0, TURN } },
+	  DISK_L,
+	  { -20.5, 10.5, 30 } },
+	/* a cylinder of radius 1 and height 1, cut at half its height, by curves in space only */
+	{ { { 143, 0, "143,0,3,1,5;" },
+	    { 122, 0, "122,7,1.,0.,1.;" },
+	    { 141, 0, "141,0,0,3,4,7,1,0,9,1,0,11,2,0,13,1,0;" },
+	    { 100, 0, "100,0.,0.,0.,1.,0.,0.,1.;" },
+	    { 110, 0, "110,0.,1.,0.,0.,1.,.5;" },
+	    { 100, 0, "100,.5,0.,0.,1.,0.,0.,1.;" },
+	    { 110, 0, "110,1.,0.,.5,1.,0.,0.;" } },
+	  M_PI / 4,
+	  { 0.70710678118654752, 0.70710678118654752, 0.5 } },
+	/* all around a closed one: the seam runs up and down */
+	{ { { 143, 0, "143,0,3,1,5;" },
+	    { 122, 0, "122,7,1.,0.,1.;" },
+	    { 141, 0, "141,0,0,3,4,9,1,0,7,1,0,9,2,0,11,2,0;" },
+	    { 100, 0, "100,0.,0.,0.,1.,0.,1.,0.;" },
+	    { 110, 0, "110,1.,0.,.5,1.,0.,0.;" },
+	    { 100, 0, "100,.5,0.,0.,1.,0.,1.,0.;" } },
+	  M_PI,
+	  { -1, 0, 0.5 } },
+	/* loops in u,v alone, by the parameters of the standard: length and angle of a revolution */
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 120, 0, "120,9,11,0.,3.141592653589793;" },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 100, 0, "100,0.,.5,1.5707963267948966,.8,1.5707963267948966,.8,1.5707963267948966;" },
+	    { 110, 0, "110,0.,0.,0.,0.,0.,1.;" },
+	    { 110, 0, "110,2.,0.,0.,2.,0.,4.;" } },
+	  M_PI * 1.2 * 0.6,
+	  { 0, 2, 2 } },
+	/* an offset of it, half as large again */
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 140, 0, "140,0.,1.,0.,1.,13;" },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 100, 0, "100,0.,.5,1.5707963267948966,.8,1.5707963267948966,.8,1.5707963267948966;" },
+	    { 110, 0, "110,0.,0.,0.,0.,0.,1.;" },
+	    { 110, 0, "110,2.,0.,0.,2.,0.,4.;" },
+	    { 120, 0, "120,9,11,0.,3.141592653589793;" } },
+	  M_PI * 1.2 * 0.9,
+	  { 0, 3, 2 } },
+	/* both parameters angles: latitudes from -90 degrees by 0.5 to 2, longitudes 0.3 to 1.1 */
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 120, 0, "120,9,11,0.,2.;" },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 106, 63,
+	      "106,1,5,0.,5.21238898038469,.3,6.71238898038469,.3,6.71238898038469,1.1,"
+	      "5.21238898038469,1.1,5.21238898038469,.3;" },
+	    { 110, 0, "110,0.,0.,0.,0.,0.,1.;" },
+	    { 100, 0, "100,0.,0.,0.,0.,-1.,0.,1.;", 13 },
+	    { 124, 0, "124,1.,0.,0.,0.,0.,0.,-1.,0.,0.,1.,0.,0.;" } },
+	  0.8 * (0.87758256189037271 + 0.41614683654714239), /* cos 0.5 - cos 2 */
+	  { 0.54030230586813972, 0.84147098480789651, 0 } },
+	/* a share of the angle along a cylinder of half a turn, or ruled of quarters */
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 122, 0, "122,9,1.,0.,2.;" },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 100, 0, "100,0.,.5,.5,.75,.5,.75,.5;" },
+	    { 100, 0, "100,0.,0.,0.,1.,0.,-1.,0.;" } },
+	  M_PI * 0.25 * M_PI * 0.5,
+	  { 0, 1, 1 } },
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 118, 1, "118,9,11,0,0;" },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 100, 0, "100,0.,.5,.5,.75,.5,.75,.5;" },
+	    { 100, 0, "100,0.,0.,0.,1.,0.,0.,1.;" },
+	    { 100, 0, "100,3.,0.,0.,1.,0.,0.,1.;" } },
+	  M_PI * 0.25 * M_PI / 2 * 0.75,
+	  { 0.70710678118654752, 0.70710678118654752, 1.5 } },
+	/* ruled by arc length: made to run so, and exact where both sides are hasty alike */
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 118, 0, "118,9,11,0,0;" },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 100, 0, "100,0.,.5,.5,.75,.5,.75,.5;" },
+	    { 110, 0, "110,0.,0.,0.,2.,0.,0.;" },
+	    { 126, 0, HASTY } },
+	  M_PI * 0.5 * 0.25,
+	  { 1, 0.5, 0 } },
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 118, 0, "118,9,11,0,0;" },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 100, 0, "100,0.,.5,.5,.75,.5,.75,.5;" },
+	    { 126, 0, HASTY },
+	    { 126, 0, HASTY, 13 },
+	    { 124, 0, MOVE_UP } },
+	  M_PI * 0.5 * 0.25,
+	  { 0.5, 1, 0.5 } },
+	/* 114: powers of u and v as they stand; 108: lengths, where the standard is silent */
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 114, 0,
+	      "114,3,1,1,1,0.,1.,0.,1.,0.,1.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,"
+	      "0.,0.,0.,0.,1.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,"
+	      "0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.;" },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 100, 0, DISK } },
+	  DISK_L,
+	  { 0.5, 0.5, 0 } },
+	{ { { 144, 0, "144,3,1,0,5;" },
+	    { 108, 1, "108,0.,0.,1.,0.,9;" },
+	    { 142, 0, "142,0,3,7,0,1;" },
+	    { 100, 0, DISK },
+	    { 106, 63, "106,1,5,0.,0.,0.,1.,0.,1.,1.,0.,1.,0.,0.;" } },
+	  DISK_L,
+	  { 0.5, 0.5, 0 } },
+};
+enum { N_FACES = sizeof faces / sizeof faces[0] };
+
+static void read_face(struct model *m, size_t row)
+{
+	struct made_file f = { 0 };
+	struct report_store store;
+	struct text t = { 0 };
+	int n = 0;
+	while (n < MADE_MAX + 2 && faces[row].entities[n].type)
+		n++;
+	make_iges(&t, &f, faces[row].entities, n);
+	report_store_init(&store);
+	model_init(m);
+	if (iges_parse(m, t.s, t.n, "x.igs", NULL, &store.report) != ST_OK)
+		fail_msg("row %zu: %s", row, store.error);
+	text_finish(&t);
+}
+
+static const struct entity *trimmed(const struct model *m, size_t row)
+{
+	for (int i = 0; i < m->n; i++)
+		if (m->entities[i].trim.n)
+			return &m->entities[i];
+	fail_msg("row %zu: no trims: %s", row,
+	         m->n_skipped ? m->skipped[0].reason : "nothing skipped");
+	return NULL;
+}
+
+static void assert_area(size_t row, const struct entity *e, double expected)
+{
+	double area, error;
+	assert_int_equal(trim_area(&e->trim, &e->geometry, 1e-8, &area, &error), ST_OK);
+	if (!(fabs(area - expected) <= 2e-6 * expected))
+		fail_msg("row %zu: area %.12g, expected %.12g", row, area, expected);
+}
+
+static void faces_become_trims(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < N_FACES; i++) {
+		struct model m;
+		read_face(&m, i);
+		const struct entity *e = trimmed(&m, i);
+		const double(*d)[2] = e->geometry.domain;
+		assert_int_equal(e->number, 1);
+		assert_int_equal(e->de, 3);
+		assert_int_equal(e->n_faces, 1);
+		assert_int_equal(e->faces[0], 1);
+		assert_point(i,
+		             surface_point(&e->geometry, 0.5 * (d[0][0] + d[0][1]),
+		                           0.5 * (d[1][0] + d[1][1])),
+		             faces[i].p);
+		assert_area(i, e, faces[i].area);
+		model_finish(&m);
+	}
+}
+
+static void trims_are_written_and_read_again(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < N_FACES; i++) {
+		struct model a, b;
+		struct text t = { 0 };
+		struct report_store store;
+		read_face(&a, i);
+		struct entity *e = (struct entity *)trimmed(&a, i);
+		assert_int_equal(model_set_text(&e->name, "bow"), ST_OK);
+		e->has_color = true;
+		e->color[1] = 0.5;
+		iges_format(&a, &t);
+		assert_false(t.failed);
+		report_store_init(&store);
+		model_init(&b);
+		if (iges_parse(&b, t.s, t.n, "y.igs", NULL, &store.report) != ST_OK)
+			fail_msg("row %zu: %s", i, store.error);
+		const struct entity *again = trimmed(&b, i);
+		assert_int_equal(b.n_skipped, 0);
+		assert_string_equal(again->name, "bow");
+		assert_true(again->has_color && again->color[1] == 0.5);
+		assert_int_equal(again->trim.n, e->trim.n);
+		for (int k = 0; k < e->trim.n; k++) {
+			const struct trim_loop *x = &e->trim.loops[k], *y = NULL;
+			for (int l = 0; l < e->trim.n; l++)
+				if (again->trim.loops[l].outer == x->outer)
+					y = &again->trim.loops[l];
+			assert_non_null(y);
+			assert_int_equal(x->n, y->n);
+			for (int c = 0; c < x->n; c++) {
+				assert_int_equal(x->curves[c].n, y->curves[c].n);
+				for (int p = 0; p < 4 * x->curves[c].n; p++)
+					assert_true(fabs(x->curves[c].points[p] -
+					                 y->curves[c].points[p]) <= 1e-12);
+			}
+		}
+		assert_area(i, again, faces[i].area);
+		model_finish(&a);
+		model_finish(&b);
+		text_finish(&t);
+	}
+}
+
+/* A surface that two faces share comes twice; its number stays. */
+static void shared_surfaces_keep_every_trim(void **state)
+{
+	static const struct made_entity entities[MADE_MAX] = {
+		{ 128, 0, SQUARE },
+		{ 144, 0, "144,1,1,0,7;" },
+		{ 144, 0, "144,1,0,1,0,7;", 0, 0, NULL, "HOLE" },
+		{ 142, 0, "142,0,1,9,0,1;" },
+		{ 100, 0, DISK },
+		{ 110, 0, "110,0.,0.,0.,1.,0.,0.;" },
+	};
+	const struct made_file f = { 0 };
+	struct model m;
+	struct report_store store;
+	struct entity *e;
+	(void)state;
+	assert_int_equal(read_made(&m, &f, entities, &store), ST_OK);
+	assert_int_equal(m.entities[0].n_faces, 2);
+	assert_area(0, &m.entities[0], DISK_L);
+	assert_int_equal(model_find(&m, "D5", &e, NULL), ST_OK);
+	assert_int_equal(e->number, 3);
+	assert_string_equal(e->name, "HOLE");
+	assert_area(1, e, 1 - DISK_L);
+	assert_int_equal(model_find(&m, "2", &e, NULL), ST_OK);
+	assert_int_equal(e->de, 11);
+	model_finish(&m);
+}
+
+/* A subfigure of a subfigure, placed twice: surfaces by the first instance in their own place. */
+static void instances_show_subfigures(void **state)
+{
+	static const struct made_entity entities[MADE_MAX] = {
+		{ 128, 0, SQUARE },
+		{ 110, 0, "110,0.,0.,0.,1.,0.,0.;" },
+		{ 308, 0, "308,0,4Hpart,2,1,3;" },
+		{ 408, 0, "408,5,1.,0.,0.,2.;" },
+		{ 308, 0, "308,1,5Hwhole,1,13;" },
+		{ 408, 0, "408,9,0.,0.,5.,1.;" },
+		{ 402, 7, "402,1,7;" },
+		{ 408, 0, "408,9,0.,0.,0.,;", 0 },
+	};
+	const struct made_file f = { 0 };
+	struct model m;
+	struct report_store store;
+	struct entity *e;
+	(void)state;
+	assert_int_equal(read_made(&m, &f, entities, &store), ST_OK);
+	assert_int_equal(m.n_skipped, 0);
+	assert_int_equal(m.n_warnings, 0);
+	assert_int_equal(m.n, 5);
+	assert_int_equal(model_find(&m, "1", &e, NULL), ST_OK);
+	assert_point(0, surface_point(&e->geometry, 1, 1), vec3(3, 2, 5));
+	assert_int_equal(m.entities[1].number, 0);
+	assert_int_equal(m.entities[2].de, 15);
+	assert_point(1, surface_point(&m.entities[2].geometry, 1, 1), vec3(3, 2, 0));
+	assert_point(2, curve_point(&m.entities[3].curve, 1), vec3(3, 0, 5));
+	assert_point(3, curve_point(&m.entities[4].curve, 1), vec3(3, 0, 0));
+	model_finish(&m);
+}
+
+static void a_lone_curve_on_surface_is_one(void **state)
+{
+	static const struct made_entity entities[MADE_MAX] = {
+		{ 142, 0, "142,0,3,0,5,2;" },
+		{ 122, 0, "122,7,1.,0.,1.;" },
+		{ 100, 0, "100,.5,0.,0.,1.,0.,0.,1.;" },
+		{ 100, 0, "100,0.,0.,0.,1.,0.,0.,1.;" },
+	};
+	const struct made_file f = { 0 };
+	struct model m;
+	struct report_store store;
+	(void)state;
+	assert_int_equal(read_made(&m, &f, entities, &store), ST_OK);
+	const struct entity *e = &m.entities[m.n - 1];
+	assert_int_equal(e->kind, ENTITY_CURVE_ON_SURFACE);
+	assert_int_equal(e->number, 2);
+	for (int i = 0; i <= 4; i++) {
+		double t = e->space.domain[0] + (e->space.domain[1] - e->space.domain[0]) * i / 4;
+		struct vec3 p = curve_point(&e->space, t);
+		assert_true(fabs(hypot(p.x, p.y) - 1) < 1e-5 && fabs(p.z - 0.5) < 1e-5);
+		assert_true(fabs(curve_point(&e->curve, t).y - 0.5) < 1e-5);
+	}
+	model_finish(&m);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(faces_become_trims),
+		cmocka_unit_test(trims_are_written_and_read_again),
+		cmocka_unit_test(shared_surfaces_keep_every_trim),
+		cmocka_unit_test(instances_show_subfigures),
+		cmocka_unit_test(a_lone_curve_on_surface_is_one),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}

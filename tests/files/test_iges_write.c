@@ -1,0 +1,122 @@
+/* test_iges_write.c - what is written as IGES is read again. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "iges_made.h"
+
+static void written_is_read_again(void **state)
+{
+	struct model a, b;
+	struct report_store store;
+	struct text t = { 0 };
+	const struct made_file f = { .global = "1H,,1H;,,,,,,,,,,,.5,6,1HM;" };
+	(void)state;
+	assert_int_equal(read_made(&a, &f, standard, &store), ST_OK);
+	free(a.entities[0].name);
+	a.entities[0].name =
+	        strdup("a name that is longer than a line of parameters; with, \"all\" "
+	               "kinds of characters in it");
+	a.entities[1].geometry.points[1] = -1.2345678901234567e-200;
+	a.entities[1].geometry.points[2] = 1e22;
+	iges_format(&a, &t);
+	assert_false(t.failed);
+	model_init(&b);
+	assert_true(iges_recognise(t.s, t.n));
+	if (iges_parse(&b, t.s, t.n, "y.igs", NULL, &store.report) != ST_OK)
+		fail_msg("%s", store.error);
+	assert_int_equal(b.n, 2);
+	assert_int_equal(b.n_skipped, 0);
+	assert_string_equal(b.unit, "m");
+	assert_true(b.scale == 0.5 && b.unit_in_mm == 1000);
+	const struct curve *c = &a.entities[0].curve, *d = &b.entities[0].curve;
+	assert_string_equal(b.entities[0].name, a.entities[0].name);
+	assert_memory_equal(c->knots, d->knots, 6 * sizeof(double));
+	assert_memory_equal(c->domain, d->domain, sizeof c->domain);
+	for (int i = 0; i < 12; i++)
+		assert_true(fabs(c->points[i] - d->points[i]) <= 1e-15 * fabs(c->points[i]));
+	const struct surface *s = &a.entities[1].geometry, *r = &b.entities[1].geometry;
+	assert_memory_equal(s->points, r->points, 16 * sizeof(double));
+	assert_memory_equal(s->knots[0], r->knots[0], 4 * sizeof(double));
+	assert_memory_equal(b.entities[1].color, a.entities[1].color, sizeof b.entities[1].color);
+	for (const char *line = t.s; *line; line = strchr(line, '\n') + 1)
+		assert_int_equal(strchr(line, '\n') - line, 80);
+	model_finish(&a);
+	model_finish(&b);
+	text_finish(&t);
+}
+
+/* Programs that overlook U0 .. V1 must see the part that is meant: it is written alone. */
+static void only_what_is_meant_is_written(void **state)
+{
+	static const struct made_entity entities[MADE_MAX] = {
+		{ 128, 0,
+		  "128,2,1,1,1,0,0,1,0,0,0.,0.,1.,2.,2.," KNOTS4
+		  "1.,1.,1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,2.,"
+		  "1.,0.,0.,1.,0.,1.,1.,0.,2.,1.,3.,.5,1.75,0.,1.;" },
+		{ 126, 0,
+		  "126,2,1,0,0,1,0,0.,0.,1.,2.,2.,1.,1.,1.,0.,0.,0.,1.,0.,0.,2.,1.,0.,.5,1.75;" },
+	};
+	const struct made_file f = { 0 };
+	struct model a, b;
+	struct report_store store;
+	struct text t = { 0 };
+	(void)state;
+	assert_int_equal(read_made(&a, &f, entities, &store), ST_OK);
+	iges_format(&a, &t);
+	assert_false(t.failed);
+	model_init(&b);
+	assert_int_equal(iges_parse(&b, t.s, t.n, "y.igs", NULL, NULL), ST_OK);
+	const struct surface *s = &b.entities[0].geometry;
+	const struct curve *c = &b.entities[1].curve;
+	assert_true(s->knots[0][1] == 0.5 && s->knots[0][s->n[0]] == 1.75);
+	assert_true(c->knots[1] == 0.5 && c->knots[c->n] == 1.75);
+	for (double u = 0.5; u <= 1.75; u += 0.25) {
+		assert_point(0, surface_point(s, u, 0.5),
+		             surface_point(&a.entities[0].geometry, u, 0.5));
+		assert_point(1, curve_point(c, u), curve_point(&a.entities[1].curve, u));
+	}
+	model_finish(&a);
+	model_finish(&b);
+	text_finish(&t);
+}
+
+static void a_missing_unit_is_told(void **state)
+{
+	static const struct made_entity entities[MADE_MAX] = { { 128, 0, SQUARE } };
+	const struct made_file f = { 0 };
+	char folder[] = "/tmp/batten-test-XXXXXX", path[64];
+	struct model m;
+	struct report_store store;
+	(void)state;
+	assert_non_null(mkdtemp(folder));
+	snprintf(path, sizeof path, "%s/x.igs", folder);
+	assert_int_equal(read_made(&m, &f, entities, &store), ST_OK);
+	assert_int_equal(iges_write(&m, path, &store.report), ST_OK);
+	assert_int_equal(store.n_warnings, 0);
+	assert_int_equal(model_set_text(&m.unit, NULL), ST_OK);
+	assert_int_equal(iges_write(&m, path, &store.report), ST_OK);
+	assert_int_equal(store.n_warnings, 1);
+	model_finish(&m);
+	assert_int_equal(model_read(&m, path, NULL, &store.report), ST_OK);
+	assert_string_equal(m.unit, "mm");
+	model_finish(&m);
+	unlink(path);
+	rmdir(folder);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(written_is_read_again),
+		cmocka_unit_test(only_what_is_meant_is_written),
+		cmocka_unit_test(a_missing_unit_is_told),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
