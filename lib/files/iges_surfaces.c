@@ -125,7 +125,8 @@ static enum status read_offset(struct iges_cursor *c, int depth, struct surface 
 		double side = vec3_dot(normal, vec3(p[0], p[1], p[2])) < 0 ? -1 : 1;
 		st = make_offset(out, &s, side * p[3], iges_tolerance(g, surface_size(&s)), &error,
 		                 &g->store.report);
-		iges_warn_error(g, WARN_OFFSET, c->de, error);
+		if (st == ST_OK)
+			iges_warn_error(g, WARN_OFFSET, c->de, error);
 	}
 	surface_finish(&s);
 	return st;
