@@ -127,8 +127,12 @@ enum status world_replace(struct world *w, const char *what, int id, struct enti
 		st = ful_copy(&f, w->things[at]);
 	if (st == ST_OK) {
 		struct Ful *before = w->things[at];
+		const int number = f->entity.number,
+		          de = f->entity.de; /* stay: it is still that one */
 		entity_finish(&f->entity);
 		f->entity = *e;
+		f->entity.number = number;
+		f->entity.de = de;
 		f->entity.surface = -1;
 		entity_init(e, e->kind);
 		f->revision = ++w->revision;

@@ -306,10 +306,10 @@ static void test_overlays(void **state)
 	const int id = world_at(w, 0)->id, other = world_at(w, 1)->id;
 	struct overlay o = { .kind = OVERLAY_MAP, .thing = id, .file = "a.map.exr" };
 	assert_int_equal(world_show(w, &o), ST_OK);
-	o.quantity = QUANTITY_H;
+	o.quantity = QUANTITY_MEAN;
 	assert_int_equal(world_show(w, &o), ST_OK);
 	assert_int_equal(world_overlays(w), 1);
-	assert_int_equal(world_overlay(w, 0)->quantity, QUANTITY_H);
+	assert_int_equal(world_overlay(w, 0)->quantity, QUANTITY_MEAN);
 	o.thing = other;
 	assert_int_equal(world_show(w, &o), ST_OK);
 	o.kind = OVERLAY_LINES;
