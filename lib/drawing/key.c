@@ -92,15 +92,18 @@ static void set(cairo_t *cr, struct rgb c)
 	cairo_set_source_rgb(cr, c.r, c.g, c.b);
 }
 
-/* Rows of the bar are device pixels, so the colors are the map's own. */
+/* Rows end at device pixels, so the colors are the map's own and no seams show at any scale. */
 static void draw_bar(cairo_t *cr, const struct key *k, double x, double y)
 {
 	int rows = (int)k->bar;
+	cairo_save(cr);
+	cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
 	for (int i = 0; i < rows; i++) {
 		set(cr, colormap_at(&k->map, 1 - (i + 0.5) / rows));
 		cairo_rectangle(cr, x, y + i, BAR, 1);
 		cairo_fill(cr);
 	}
+	cairo_restore(cr);
 }
 
 /* Colors beyond an end, with the share of the area that has them. */

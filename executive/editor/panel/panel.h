@@ -10,31 +10,32 @@
 #include "stats.h"
 #include "theme.h"
 
-/* What lies where: filled in by painters, asked by the mouse. */
+/* What lies where: filled in by painters, asked by the mouse. index and part of each: */
 enum hit_kind {
 	HIT_NONE,
 	HIT_MENU_ROW,
 	HIT_FIELD,
-	HIT_CHOICE,
-	HIT_BUTTON,
-	HIT_CHIP,
+	HIT_CHOICE, /* the field; part: which choice, of a yes or no 0 */
+	HIT_BUTTON, /* which; part: enum hit_group */
+	HIT_CHIP,   /* which; -1: those there is no room for */
 	HIT_JOB_ROW,
-	HIT_JOB_BOX,
+	HIT_JOB_BOX, /* the box before the row; -1: that in the head, of all rows */
 	HIT_TAB,
 	HIT_SEARCH,
 	HIT_WORLD,
 	HIT_CANDIDATE,
 	HIT_RESULT,
-	HIT_KEY_LOW,
+	HIT_KEY_LOW, /* an end of the key's bar; the whole bar lies between both */
 	HIT_KEY_HIGH,
-	HIT_COLOR_WHEEL,
-	HIT_COLOR_VALUE,
-	HIT_LIGHT,
+	HIT_COLOR_WHEEL, /* 0: saturation to the right, value upward; 1: hue, from 0 at the top */
+	HIT_COLOR_VALUE, /* 0 to 2: slider of hue, saturation, value; 3: the old color; 4 on: samples */
+	HIT_LIGHT,       /* 0: the dial, its box a square about it; 1: slider of the intensity */
 	HIT_BAR,
 	HIT_CRUMB,
-	HIT_HELP_LINK,
-	HIT_SCROLL,
+	HIT_HELP_LINK, /* 0 on: link of the page (panel_help_link); -1: help on this menu; -2: close */
+	HIT_SCROLL,    /* part: enum hit_group; the box is the track */
 };
+enum hit_group { GROUP_FORM, GROUP_JOBS, GROUP_LIST, GROUP_EMPTY, GROUP_HELP };
 struct hit {
 	enum hit_kind kind;
 	int index, part; /* which row, and which part of it (a choice, an end) */
@@ -55,7 +56,7 @@ struct look {
 	enum hit_kind hover_kind;
 	int hover_index, hover_part;
 	enum hit_kind focus_kind; /* keyboard focus: ring */
-	int focus_index;
+	int focus_index, focus_part;
 };
 
 /* Where the parts are in a window of that size; a part that is not shown has width 0. */
@@ -84,10 +85,11 @@ struct top_model {
 
 /* Menu panel: search and World buttons, crumbs, title, rows, then the form of what is asked. */
 struct menu_row {
-	char key;            /* '1' .. '9', '0', 'A' .. 'D' */
-	const char *name;    /* "ALL CURVATURES" */
-	const char *state;   /* right: "400 × 200", "job", why it is greyed; "" */
-	bool greyed, chosen; /* chosen: asked for, or shown (check) */
+	char key;         /* '1' .. '9', '0', 'A' .. 'D' */
+	const char *name; /* "ALL CURVATURES" */
+	const char
+	        *state; /* right: "400 × 200", "job", why it is greyed; "shown" has a check; "" */
+	bool greyed, chosen; /* chosen: what is being asked for or was done last */
 	bool is_menu;
 };
 enum form_kind { FORM_TEXT, FORM_CHOICE, FORM_YESNO };
@@ -106,8 +108,9 @@ struct menu_model {
 	const char *form_title, *form_code; /* NULL: nothing is asked */
 	const struct form_field *fields;
 	int n_fields, scroll;
-	const char *main_button; /* "Show", "Start" */
+	const char *main_button; /* "Show", "Start"; HIT_BUTTON 0 */
 	bool world_open;
+	const char *other_button, *other_key; /* "Put back", "Esc"; HIT_BUTTON 1; NULL: none */
 };
 
 /* Mouse words; "" where a button does nothing now. At most 24 characters. */
@@ -124,7 +127,7 @@ struct foot_model {
 	int caret;
 	bool caret_on;
 	struct {
-		const char *key, *word;
+		const char *key, *word; /* NULL: none */
 	} hints[4];
 	const char *const *candidates, *const *candidate_notes; /* at most 8, best first */
 	int n_candidates, candidate;
