@@ -106,6 +106,13 @@ static void leave_process(struct job *job)
 	launcher(job)->forget(launcher(job)->data, job->stats.id);
 }
 
+void job_tidy(struct job *job)
+{
+	const struct queue_ports *ports = &job->q->ports;
+	if (ports->tidy)
+		ports->tidy(ports->room_data, &job->stats);
+}
+
 /* It was not its own doing: it goes on from its part file, but not for ever. */
 static void lose(struct job *job)
 {
@@ -128,6 +135,8 @@ void job_gone(struct job *job)
 	enum job_cause cause = job->cause;
 
 	leave_process(job);
+	if (!clean)
+		job_tidy(job);
 	if (*job->exit.why && cause == CAUSE_NONE) {
 		free(job->fault);
 		job->fault = strdup(job->exit.why);

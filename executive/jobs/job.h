@@ -126,6 +126,7 @@ void job_signal(struct job *job, enum launcher_signal signal);
 void job_end(struct job *job, enum job_cause cause, enum ending step);
 void job_escalate(struct job *job);
 void job_gone(struct job *job); /* its final state, or queued again */
+void job_tidy(struct job *job); /* its process is gone before its time */
 
 /* history.c */
 void history_add(struct job *job);             /* it is done */

@@ -252,8 +252,10 @@ static void job_loaded(struct job *job, bool killed)
 	struct queue *q = job->q;
 	enum job_state state = job->stats.state;
 	struct report_store store;
-	if (job->stats.pid > 0)
+	if (job->stats.pid > 0) {
 		q->ports.launcher->bury(q->ports.launcher->data, &job->stats);
+		job_tidy(job);
+	}
 	job->stats.pid = 0;
 	if (state == JOB_DONE)
 		history_add(job);

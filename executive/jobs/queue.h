@@ -43,7 +43,10 @@ struct queue_ports {
 	int64_t (*room)(void *data, const struct Stats *s);
 	/* Bytes of the files it made, -1: not known. NULL: nobody looks. */
 	int64_t (*size)(void *data, const struct Stats *s);
-	void *room_data; /* of both */
+	/* A job's process is gone before its time: take away what it left half written. NULL: nobody
+	 * does. */
+	void (*tidy)(void *data, const struct Stats *s);
+	void *room_data; /* of these three */
 };
 
 struct queue; /* opaque */

@@ -17,6 +17,7 @@
 #include "parallel.h"
 #include "path.h"
 #include "server.h"
+#include "tidy.h"
 
 /* jobs at once at least; milliseconds after which an ending service waits no more */
 enum { JOBS_LEAST = 4, LEAVE_MS = 4500, BACKLOG_CONNECTIONS = 128 };
@@ -68,6 +69,12 @@ static int64_t output_size(void *data, const struct Stats *job)
 		bytes += s.st_size;
 	}
 	return bytes;
+}
+
+static void on_tidy(void *data, const struct Stats *job)
+{
+	(void)data;
+	tidy_outputs(job);
 }
 
 static void hooks_told(struct server *s, const struct Stats *job)
@@ -294,6 +301,7 @@ static enum status server_open(struct server *s, const struct settings *settings
 		.told_data = s,
 		.room = room_left,
 		.size = output_size,
+		.tidy = on_tidy,
 		.room_data = s,
 	};
 	char *path = path_join(s->project->hidden, "jobs.db");

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -61,24 +62,78 @@ enum status file_read(const char *path, uint64_t max, char **out, size_t *n, con
 	return ST_OK;
 }
 
-enum status whole_file_create(struct whole_file *f, const char *path, const struct report *r)
+/* Its name is given through /proc. -1: not to be had here. */
+static int open_nameless(const char *path)
 {
-	*f = (struct whole_file){ .path = strdup(path), .temp = text_print("%s.XXXXXX", path) };
-	if (!f->path || !f->temp) {
-		whole_file_abandon(f);
-		return report_error(r, ST_RESOURCE, "cannot write '%s': memory ran out", path);
+	char *folder = path_folder(path);
+	int fd = folder && path_exists("/proc/self/fd")
+	                 ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666)
+	                 : -1;
+
+	free(folder);
+	return fd;
+}
+
+static int open_named(struct whole_file *f)
+{
+	f->temp = text_print("%s.XXXXXX", f->path);
+	if (!f->temp) {
+		errno = ENOMEM;
+		return -1;
 	}
 	int fd = mkostemp(f->temp, O_CLOEXEC);
 	if (fd < 0) {
 		int error = errno;
 		free(f->temp);
 		f->temp = NULL;
-		whole_file_abandon(f);
-		return fail(r, "write", path, error);
+		errno = error;
+		return -1;
 	}
 	mode_t mask = umask(0);
 	umask(mask);
 	fchmod(fd, 0666 & ~mask);
+	return fd;
+}
+
+/* Name a file that has none: only a rename can put it in another's place. 0 or errno. */
+static int give_name(struct whole_file *f)
+{
+	enum { TRIES = 100 };
+	char from[32];
+	unsigned long random;
+
+	snprintf(from, sizeof from, "/proc/self/fd/%d", fileno(f->stream));
+	for (int i = 0; i < TRIES; i++) {
+		if (getrandom(&random, sizeof random, 0) != sizeof random)
+			return errno;
+		free(f->temp);
+		f->temp = text_print("%s.%06lx", f->path, random & 0xffffff);
+		if (!f->temp)
+			return ENOMEM;
+		if (!linkat(AT_FDCWD, from, AT_FDCWD, f->temp, AT_SYMLINK_FOLLOW))
+			return 0;
+		if (errno != EEXIST)
+			break;
+	}
+	int error = errno;
+	free(f->temp); /* another's, or none */
+	f->temp = NULL;
+	return error;
+}
+
+enum status whole_file_create(struct whole_file *f, const char *path, const struct report *r)
+{
+	*f = (struct whole_file){ .path = strdup(path) };
+	if (!f->path)
+		return report_error(r, ST_RESOURCE, "cannot write '%s': memory ran out", path);
+	int fd = open_nameless(path);
+	if (fd < 0)
+		fd = open_named(f);
+	if (fd < 0) {
+		int error = errno;
+		whole_file_abandon(f);
+		return fail(r, "write", path, error);
+	}
 	f->stream = fdopen(fd, "w");
 	if (!f->stream) {
 		close(fd);
@@ -109,6 +164,8 @@ enum status whole_file_commit(struct whole_file *f, const struct report *r)
 		error = write(fileno(f->stream), "", 1) < 0 ? errno : ENOSPC;
 	else if (fflush(f->stream) || fsync(fileno(f->stream)))
 		error = errno;
+	if (!error && !f->temp)
+		error = give_name(f);
 	if (fclose(f->stream) && !error)
 		error = errno;
 	f->stream = NULL;

@@ -16,12 +16,14 @@ enum status file_read(const char *path, uint64_t max, char **out, size_t *n,
                       const struct report *r);
 
 /*
- * A file on its way: written under a temporary name in the same folder, put under its final name
- * by commit (flushed, synced, renamed, folder synced). Until then nothing is to be seen of it.
+ * A file on its way: written without a name on the same disk (where that cannot be, under a temporary
+ * name in the same folder), put under its final name by commit (flushed, synced, renamed, folder
+ * synced). Until then nothing is to be seen of it, and a process that is killed leaves nothing.
  */
 struct whole_file {
-	FILE *stream;      /* write here; owned */
-	char *path, *temp; /* owned */
+	FILE *stream; /* write here; owned */
+	char *path;   /* owned */
+	char *temp;   /* owned; NULL while it has no name */
 };
 
 /* Errors: ST_INPUT (no such folder, not writable), ST_RESOURCE. */

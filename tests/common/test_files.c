@@ -1,6 +1,7 @@
 /* test_files.c - paths, and files that appear whole or not at all. */
 #include <fcntl.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -8,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -114,6 +116,47 @@ static void an_abandoned_file_leaves_nothing(void **state)
 	free(sub);
 }
 
+static void a_killed_writer_leaves_nothing(void **state)
+{
+	char *sub = path_join(folder, "killed"), *path = path_join(sub, "f");
+	int status;
+
+	(void)state;
+	assert_int_equal(folder_make(sub, 0700, NULL), ST_OK);
+	int fd = open(sub, O_TMPFILE | O_WRONLY, 0600);
+	pid_t child = fork();
+	if (child == 0) {
+		struct whole_file f;
+		if (whole_file_create(&f, path, NULL) == ST_OK && fputs("half", f.stream) >= 0 &&
+		    fflush(f.stream) == 0)
+			raise(SIGKILL);
+		_exit(1);
+	}
+	assert_int_equal(waitpid(child, &status, 0), child);
+	assert_true(WIFSIGNALED(status));
+	if (fd >= 0) { /* a disk that can have files without a name */
+		close(fd);
+		assert_int_equal(rmdir(sub), 0);
+	}
+	free(path);
+	free(sub);
+}
+
+static void the_mode_is_as_for_any_file(void **state)
+{
+	char *path = path_join(folder, "mode");
+	struct stat st;
+
+	(void)state;
+	mode_t old = umask(027);
+	assert_int_equal(file_write(path, "x", 1, NULL), ST_OK);
+	umask(old);
+	assert_int_equal(stat(path, &st), 0);
+	assert_int_equal(st.st_mode & 0777, 0640);
+	assert_int_equal(st.st_nlink, 1);
+	free(path);
+}
+
 static void a_failed_write_is_told(void **state)
 {
 	char *path = path_join(folder, "kept"), *got;
@@ -173,6 +216,8 @@ int main(void)
 		cmocka_unit_test(absolute_paths),
 		cmocka_unit_test(a_file_appears_at_its_commit),
 		cmocka_unit_test(an_abandoned_file_leaves_nothing),
+		cmocka_unit_test(a_killed_writer_leaves_nothing),
+		cmocka_unit_test(the_mode_is_as_for_any_file),
 		cmocka_unit_test(a_failed_write_is_told),
 		cmocka_unit_test(what_cannot_be_read),
 		cmocka_unit_test(folders_are_made_with_those_above),

@@ -88,4 +88,54 @@ def test_a_worker_by_hand_goes_on_from_its_part_file(project):
     assert not [name for name in os.listdir(project.folder) if name.endswith(".part")]
 
 
+# Writes beside its output as the workers' shared main does, and waits there to be killed.
+HALF = """#!/usr/bin/env python3
+import json, os, struct, sys, time
+if sys.argv[1:] == ["--describe"]:
+    print(json.dumps({"name": "half", "title": "half", "version": 1, "parameters": [],
+                      "outputs": [{"extension": ".half", "kind": "table", "when": None}]}))
+    sys.exit()
+def send(kind, **fields):
+    text = json.dumps(fields).encode()
+    os.write(1, struct.pack("<II", kind, len(text)) + text)
+send(1, protocol=1, worker="half")
+size = struct.unpack("<II", sys.stdin.buffer.read(8))[1]
+job = json.load(open(json.loads(sys.stdin.buffer.read(size))["job"]))
+folder, name = os.path.split(job["output"])
+for end in ("", ".aB3xYz"):
+    open(os.path.join(folder, f".{name}.half.{job['id']}.tmp{end}"), "w").write("half")
+send(2, done=1, total=2, phase="writing")
+time.sleep(1000)
+"""
+
+
+def test_what_was_half_written_goes_with_its_worker(project):
+    folder = project.path(".batten", "workers")
+    os.makedirs(folder)
+    with open(os.path.join(folder, "batten-half"), "w") as f:
+        f.write(HALF)
+    os.chmod(f.name, 0o700)
+    os.mkdir(project.path("out"))
+    kept = {".x.half.999.tmp", ".xy.half.1.tmp", "x.half.1.tmp", ".x.half.1.tmp.other", "x.shade.exr"}
+    for name in kept:
+        open(project.path("out", name), "w").close()
+    there = lambda: set(os.listdir(project.path("out")))
+    (job,) = project.submit("half", TEAPOT + "#1", "-o", "out/x")
+    assert job == 1
+    running = lambda: project.jobs()[job]["done"]
+    ways = (lambda: end.kill(project.jobs()[job]["pid"]), lambda: project.run("batten", "kill", job))
+    for way in ways:
+        end.until(running, "it writes")
+        assert len(there()) == len(kept) + 2
+        way()
+        project.run("batten", "wait", job, status=1)
+        assert there() == kept
+        project.run("batten", "retry", job)
+    end.until(running, "it writes")
+    project.run("batten", "suspend", job)
+    end.kill(project.service_pid())
+    assert project.jobs()[job]["state"] == "suspended"
+    assert there() == kept
+
+
 end.main()
