@@ -35,7 +35,10 @@ void job_list_put(struct job_list *l,
                   const struct Stats *s); /* replace the one of that id, or add */
 void job_list_finish(struct job_list *l);
 
-/* {"version":1,"jobs":[...]}, a job a line, on standard output. Exit status. */
+/* {"version":1,"jobs":[...]}, a job a line: one is added (a client_job); all are printed on standard
+ * output and *t is finished. Exit status. */
+bool job_text_add(void *data, const struct Stats *s);
+int job_text_print(struct text *t);
 int job_list_print_json(const struct job_list *l);
 
 /* The table of `batten jobs`, 80 columns. */

@@ -66,24 +66,36 @@ void job_list_finish(struct job_list *l)
 	*l = (struct job_list){ 0 };
 }
 
-int job_list_print_json(const struct job_list *l)
+bool job_text_add(void *data, const struct Stats *s)
+{
+	struct text *t = data;
+
+	text_add(t, t->n ? ",\n" : "{\"version\":1,\"jobs\":[\n");
+	stats_write(t, s);
+	return true;
+}
+
+int job_text_print(struct text *t)
 {
 	const struct report terminal = report_stderr("batten");
-	struct text t = { 0 };
-
-	text_add(&t, "{\"version\":1,\"jobs\":[");
-	for (size_t i = 0; i < l->n; i++) {
-		text_add(&t, i ? ",\n" : "\n");
-		stats_write(&t, &l->jobs[i]);
-	}
-	text_add(&t, "]}\n");
 	enum status st = ST_OK;
-	if (t.failed || l->failed)
+
+	text_add(t, t->n ? "]}\n" : "{\"version\":1,\"jobs\":[]}\n");
+	if (t->failed)
 		st = report_error(&terminal, ST_RESOURCE, "memory ran out");
-	else if (fwrite(t.s, 1, t.n, stdout) != t.n || fflush(stdout))
+	else if (fwrite(t->s, 1, t->n, stdout) != t->n || fflush(stdout))
 		st = report_error(&terminal, ST_RESOURCE, "cannot write to standard output");
-	text_finish(&t);
+	text_finish(t);
 	return status_exit(st);
+}
+
+int job_list_print_json(const struct job_list *l)
+{
+	struct text t = { .failed = l->failed };
+
+	for (size_t i = 0; i < l->n; i++)
+		job_text_add(&t, &l->jobs[i]);
+	return job_text_print(&t);
 }
 
 int job_list_exit(const struct job_list *l)

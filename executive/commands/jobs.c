@@ -45,15 +45,19 @@ static int jobs_run(const struct invocation *i)
 		return status_exit(st);
 	}
 	int rc;
-	if (invocation_flag(i, "--follow"))
+	if (invocation_flag(i, "--follow")) {
 		rc = follow(&c, i, body);
-	else {
+	} else if (i->json) {
+		struct text t = { 0 };
+		st = client_request(c.client, MESSAGE_LIST, body, job_text_add, NULL, &t,
+		                    &i->report);
+		rc = st == ST_OK ? job_text_print(&t) : status_exit(st);
+		text_finish(&t);
+	} else {
 		st = client_request(c.client, MESSAGE_LIST, body, job_list_add, NULL, &list,
 		                    &i->report);
 		rc = status_exit(st);
-		if (st == ST_OK && i->json)
-			rc = job_list_print_json(&list);
-		else if (st == ST_OK)
+		if (st == ST_OK)
 			job_list_print(&list, i->color, stdout);
 	}
 	job_list_finish(&list);

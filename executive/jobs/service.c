@@ -35,7 +35,8 @@ static double clock_date(void *data)
 	struct timespec t;
 	(void)data;
 	clock_gettime(CLOCK_REALTIME, &t);
-	return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+	/* milliseconds: what is listed often is short in digits */
+	return (double)(t.tv_sec * 1000 + t.tv_nsec / 1000000) / 1e3;
 }
 
 /* MiB free in the folder that holds the path, -1: not known. */

@@ -107,7 +107,7 @@ enum status stats_copy(struct Stats *out, const struct Stats *s)
 	out->account = duplicate(s->account, &failed);
 	out->time = duplicate(s->time, &failed);
 	out->log = duplicate(s->log, &failed);
-	out->parameters = s->parameters ? json_deep_copy(s->parameters) : NULL;
+	out->parameters = json_incref(s->parameters);
 	out->inputs = array(s->n_inputs, sizeof *out->inputs, &failed);
 	out->outputs = array(s->n_outputs, sizeof *out->outputs, &failed);
 	out->after = array(s->n_after, sizeof *out->after, &failed);
@@ -124,7 +124,7 @@ enum status stats_copy(struct Stats *out, const struct Stats *s)
 		out->outputs[i].path = duplicate(s->outputs[i].path, &failed);
 		out->outputs[i].kind = duplicate(s->outputs[i].kind, &failed);
 		if (s->outputs[i].figures)
-			out->outputs[i].figures = json_deep_copy(s->outputs[i].figures);
+			out->outputs[i].figures = json_incref(s->outputs[i].figures);
 	}
 	if (out->after)
 		memcpy(out->after, s->after, (size_t)s->n_after * sizeof *out->after);
@@ -186,16 +186,19 @@ static void write_string(struct text *t, const char *s)
  * or null, for what is not known. */
 static bool write_key(const struct writer *w, const char *key, bool known)
 {
+	enum { KEY_MAX = 32 };
 	struct text *t = w->t;
+	char b[KEY_MAX + sizeof ",\"\":null"], *p = b;
+	size_t n = strlen(key);
 	if (!known && w->brief)
 		return false;
 	if (t->n && t->s[t->n - 1] != '{' && t->s[t->n - 1] != '[')
-		text_add_bytes(t, ",", 1);
-	text_add_bytes(t, "\"", 1);
-	text_add(t, key);
-	text_add_bytes(t, "\":", 2);
-	if (!known)
-		text_add_bytes(t, "null", 4);
+		*p++ = ',';
+	*p++ = '"';
+	memcpy(p, key, n < KEY_MAX ? n : KEY_MAX);
+	p += n < KEY_MAX ? n : KEY_MAX;
+	memcpy(p, "\":null", 6);
+	text_add_bytes(t, b, (size_t)(p - b) + (known ? 2 : 6));
 	return known;
 }
 
@@ -373,7 +376,8 @@ static enum status read_outputs(struct Stats *s, const json_t *a, bool *failed)
 		const json_t *figures = json_object_get(o, "figures");
 		s->outputs[i].path = duplicate(json_text(o, "path", NULL), failed);
 		s->outputs[i].kind = duplicate(json_text(o, "kind", NULL), failed);
-		s->outputs[i].figures = json_is_object(figures) ? json_deep_copy(figures) : NULL;
+		s->outputs[i].figures =
+		        json_is_object(figures) ? json_incref((json_t *)figures) : NULL;
 		if (!s->outputs[i].path)
 			return ST_INPUT;
 	}
@@ -446,7 +450,8 @@ enum status stats_from_json(struct Stats *s, const json_t *o)
 	s->memory_mib = json_int(o, "memory_mib", 0);
 	s->force = json_flag(o, "force", false);
 	const json_t *parameters = json_object_get(o, "parameters");
-	s->parameters = json_is_object(parameters) ? json_deep_copy(parameters) : json_object();
+	s->parameters =
+	        json_is_object(parameters) ? json_incref((json_t *)parameters) : json_object();
 	enum status st = read_lists(s, o, &failed);
 	if (failed || !s->parameters)
 		st = ST_RESOURCE;

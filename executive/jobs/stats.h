@@ -41,7 +41,7 @@ struct job_input {
 
 struct job_output {
 	char *path, *kind; /* owned */
-	json_t *figures;   /* owned or NULL */
+	json_t *figures;   /* owned or NULL; likewise */
 };
 
 /* What is known of a job. Times are seconds since 1970, 0 where it has not happened. */
@@ -64,7 +64,7 @@ struct Stats {
 	struct job_output *outputs;
 	int n_outputs;
 	int64_t bytes;      /* of its outputs, -1: not known */
-	json_t *parameters; /* owned object of strings */
+	json_t *parameters; /* owned object of strings; shared by copies: never changed */
 	char *output;       /* basic name, absolute */
 	int64_t *after;     /* ids it waits for */
 	int n_after;

@@ -181,15 +181,48 @@ bool number_parse_integer(const char *s, int64_t *out)
 	return number_read_integer(&s, end, out) && s == end;
 }
 
+/* A number of thousandths, without sprintf. r / 1000 is rounded right, so is what reading rounds to: where
+ * they are equal these digits are the shortest. False for another. */
+static bool write_thousandths(char *out, double x, int *n)
+{
+	double a = fabs(x);
+	if (!(a < 1e12))
+		return false;
+	uint64_t r = (uint64_t)(a * 1e3 + 0.5);
+	if ((double)r / 1e3 != a || !r)
+		return false;
+	char digits[24], *p = digits + sizeof digits;
+	unsigned rest = (unsigned)(r % 1000);
+	int places = 3;
+	for (r /= 1000; rest && rest % 10 == 0; places--)
+		rest /= 10;
+	if (rest) {
+		for (; places; places--, rest /= 10)
+			*--p = (char)('0' + rest % 10);
+		*--p = '.';
+	}
+	do
+		*--p = (char)('0' + r % 10);
+	while (r /= 10);
+	if (x < 0)
+		*--p = '-';
+	*n = (int)(digits + sizeof digits - p);
+	memcpy(out, p, (size_t)*n);
+	out[*n] = 0;
+	return true;
+}
+
 int number_write(char out[NUMBER_SIZE], double x)
 {
 	if (isnan(x))
 		return sprintf(out, "nan");
 	if (isinf(x))
 		return sprintf(out, x < 0 ? "-inf" : "inf");
+	int n = 0;
+	if (write_thousandths(out, x, &n))
+		return n;
 	if (fabs(x) < 1e15 && x == (double)(int64_t)x && !(x == 0 && signbit(x)))
 		return sprintf(out, "%" PRId64, (int64_t)x);
-	int n = 0;
 	for (int digits = 15; digits <= 17; digits++) {
 		double back;
 		n = sprintf(out, "%.*g", digits, x);

@@ -159,6 +159,28 @@ static void writes_the_shortest(void **state)
 	}
 }
 
+/* The quick way of few decimals gives what the C library's shortest digits are. */
+static void few_decimals_are_as_printf_has_them(void **state)
+{
+	static const double divisors[] = { 1, 10, 100, 1000, 10000, 7 };
+	char s[NUMBER_SIZE], other[40];
+
+	(void)state;
+	for (int i = 0; i < 60000; i++) {
+		uint64_t bits = random_bits();
+		double x = (double)(bits >> (14 + i % 50)) / divisors[i % 6] * (i % 2 ? 1 : -1);
+		int digits = 15;
+		do
+			snprintf(other, sizeof other, "%.*g", digits, x);
+		while (strtod(other, NULL) != x && ++digits <= 17);
+		if (fabs(x) < 1e15 && x == trunc(x))
+			snprintf(other, sizeof other, "%.0f", x);
+		number_write(s, x);
+		if (x != 0)
+			assert_string_equal(s, other);
+	}
+}
+
 static void integers(void **state)
 {
 	int64_t x;
@@ -181,6 +203,7 @@ int main(void)
 		cmocka_unit_test(ties_round_to_even),
 		cmocka_unit_test(written_numbers_read_back),
 		cmocka_unit_test(writes_the_shortest),
+		cmocka_unit_test(few_decimals_are_as_printf_has_them),
 		cmocka_unit_test(integers),
 	};
 
