@@ -220,7 +220,7 @@ static enum status find_first_lines(struct iges *g)
 		return ST_RESOURCE;
 	for (int i = g->n_p - 1; i >= 0; i--) {
 		int de = iges_back_pointer(g, i);
-		if (iges_entry(g, de))
+		if (de % 2 == 1 && iges_entry(g, de))
 			g->first_lines[de / 2] = i + 1;
 	}
 	return ST_OK;
@@ -240,6 +240,7 @@ static bool begins_at(struct iges *g, const struct iges_entry *e, int de, int li
 enum status iges_open(struct iges *g, int de, int type, struct iges_cursor *c)
 {
 	struct iges_entry *e = iges_entry(g, de);
+	de = iges_mend_pointer(g, de);
 	*c = (struct iges_cursor){ .g = g, .de = de };
 	if (!e)
 		return iges_refuse(g, "it refers to directory entry %d, which is not there", de);
@@ -258,6 +259,8 @@ enum status iges_open(struct iges *g, int de, int type, struct iges_cursor *c)
 	}
 	if (there && begins_at(g, e, de, e->data, c)) {
 		c->last = c->g->n_p - 1; /* its pointers back say nothing */
+		if (iges_back_pointer(g, e->data - 1) > 0)
+			iges_warn(g, WARN_LENT, de);
 		return ST_OK;
 	}
 	if (g->budget < 0 && g->reason[0])

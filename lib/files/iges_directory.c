@@ -81,15 +81,29 @@ enum status iges_read_directory(struct iges *g)
 
 struct iges_entry *iges_entry(struct iges *g, int de)
 {
-	return de >= 1 && de % 2 == 1 && de / 2 < g->n_entries ? &g->entries[de / 2] : NULL;
+	return de >= 1 && (de - 1) / 2 < g->n_entries ? &g->entries[(de - 1) / 2] : NULL;
 }
 
 void iges_warn(struct iges *g, enum iges_warning w, int de)
 {
 	if (g->quiet || (g->at && de != g->at))
 		return; /* a part is looked at again for those made of it */
+	if (g->warned[w].last == de)
+		return;
+	g->warned[w].last = de;
 	if (g->warned[w].count++ == 0)
 		g->warned[w].first = de;
+}
+
+int iges_mend_pointer(struct iges *g, int de)
+{
+	struct iges_entry *e = iges_entry(g, de);
+	if (!e || de % 2 == 1)
+		return de;
+	if (!e->pointed_even && g->warned[WARN_EVEN].count++ == 0)
+		g->warned[WARN_EVEN].first = de - 1;
+	e->pointed_even = true;
+	return de - 1;
 }
 
 void iges_warn_error(struct iges *g, enum iges_warning w, int de, double error)
@@ -120,6 +134,17 @@ enum status iges_say_warnings(struct iges *g)
 		[WARN_PARAMETERS] = "loops given only in the parameters of a plane, which the "
 		                    "standard leaves open; lengths along its edges are taken",
 		[WARN_FAR] = "trimmed by curves that do not lie on it; they are brought down to it",
+		[WARN_EVEN] = "referred to by the number of their second directory line; the first "
+		              "is taken",
+		[WARN_LENT] = "no parameter data of their own, and a pointer to another's; read "
+		              "from there",
+		[WARN_FLAG] =
+		        "the flag of a polynomial, and weights that differ; the weights count",
+		[WARN_REPEATED] = "loops that a face names twice; each is taken once",
+		[WARN_NESTING] = "loops whose outer one lies within another; taken by which holds "
+		                 "which",
+		[WARN_OUTSIDE] = "inner loops outside the outer one; they cut nothing",
+		[WARN_ISLAND] = "loops within holes, which a trimmed surface cannot have; left out",
 		[WARN_UNPLACED] = "a subfigure that nothing places; its members are read as they "
 		                  "stand",
 	};

@@ -258,6 +258,7 @@ static enum status place_instance(struct iges *g, int de, struct place at)
 /* Anything that can be shown; other things are passed over. */
 static enum status place_one(struct iges *g, int de, struct place at)
 {
+	de = iges_mend_pointer(g, de);
 	struct iges_entry *e = iges_entry(g, de);
 	enum status st = ST_OK;
 	if (!e || at.depth > 3 * NESTING_MAX)

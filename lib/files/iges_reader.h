@@ -34,11 +34,12 @@ struct iges_entry {
 	int subscript;
 	char label[9];
 	bool blanked;
-	bool used;      /* another entity is made of it */
-	bool reached;   /* a face, shell, solid or instance that has been placed */
-	char state;     /* of a definition, while it is looked for circles */
-	int uses;       /* last of its uses, in uses[], -1: none */
-	int first_edge; /* in bounds[]: curves that bound the faces on it; -1: none */
+	bool used;         /* another entity is made of it */
+	bool pointed_even; /* by the number of its second line */
+	bool reached;      /* a face, shell, solid or instance that has been placed */
+	char state;        /* of a definition, while it is looked for circles */
+	int uses;          /* last of its uses, in uses[], -1: none */
+	int first_edge;    /* in bounds[]: curves that bound the faces on it; -1: none */
 };
 
 /* What shows a surface, a curve or points: a face that lies on it, an instance of a subfigure. */
@@ -69,6 +70,13 @@ enum iges_warning {
 	WARN_PARAMETERS,
 	WARN_FAR,
 	WARN_UNPLACED,
+	WARN_EVEN,
+	WARN_LENT,
+	WARN_FLAG,
+	WARN_REPEATED,
+	WARN_NESTING,
+	WARN_OUTSIDE,
+	WARN_ISLAND,
 	N_IGES_WARNINGS,
 };
 
@@ -103,7 +111,7 @@ struct iges {
 	uint64_t steps; /* P lines read */
 	int far;        /* the last P line reached, for progress */
 	struct {
-		int count, first;
+		int count, first, last;
 		double error; /* the largest, of what is approximated */
 	} warned[N_IGES_WARNINGS];
 	struct iges_edges edges; /* the list last looked at */
@@ -133,7 +141,10 @@ enum status iges_read_header(struct iges *g);
 
 /* iges_directory.c. Errors: ST_RESOURCE. */
 enum status iges_read_directory(struct iges *g);
-struct iges_entry *iges_entry(struct iges *g, int de); /* NULL where there is none */
+/* By the number of either of its lines; NULL where there is none. */
+struct iges_entry *iges_entry(struct iges *g, int de);
+/* The number of the first line; that it was the second's is told. */
+int iges_mend_pointer(struct iges *g, int de);
 void iges_warn(struct iges *g, enum iges_warning w, int de);
 /* Of an approximation, with the error that it has. */
 void iges_warn_error(struct iges *g, enum iges_warning w, int de, double error);
@@ -196,7 +207,7 @@ enum status iges_show(struct iges *g, int de, struct entity *out);
 /* A 142 that no face uses. Errors: also ST_INPUT with g->reason. */
 enum status iges_curve_on_surface(struct iges *g, int de, struct entity *out);
 
-/* iges_trims.c: the loops of face `de` on surface `base` as it stands without the face's place.
+/* iges_loops.c: the loops of face `de` on surface `base` as it stands without the face's place.
  * Loops that are lost are counted. Errors: ST_INPUT with g->reason, ST_RESOURCE, ST_CANCELLED. */
 enum status iges_trim(struct iges *g, int de, int base, const struct surface *s, struct trim *out);
 /* Curves of a 142, in u,v and in space. */

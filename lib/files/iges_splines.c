@@ -44,8 +44,11 @@ static void mend_weights(struct iges_cursor *c, double *points, size_t n, bool p
 {
 	double w = points[3];
 	for (size_t i = 1; i < n; i++)
-		if (points[4 * i + 3] != w)
+		if (points[4 * i + 3] != w) {
+			if (polynomial)
+				iges_warn(c->g, WARN_FLAG, c->de);
 			return;
+		}
 	if (w == 0 && polynomial)
 		iges_warn(c->g, WARN_WEIGHTS, c->de);
 	else if (!(w > 0) || !isfinite(w))

@@ -1,25 +1,13 @@
-/* iges_trims.c - the loops of a face, 141 142 508, as curves in its surface's u, v. */
-#include "iges_reader.h"
+/* iges_trims.c - stretches of trimming loops as curves in the surface's u, v. */
+#include "iges_trimmer.h"
 
 #include <stdlib.h>
 
-#include "iges_course.h"
 #include "project.h"
 #include "refine.h"
 
 static const double far_from = 1e-2;      /* of the size: a curve that belongs to something else */
 static const double courses_agree = 1e-3; /* of the size: curves in u,v and in space */
-
-/* A face being trimmed. */
-struct trimmer {
-	struct iges *g;
-	int de; /* what the curves are of: the face, or a 142 */
-	const struct surface *s;
-	struct projector *p; /* owned */
-	double size, tolerance;
-	struct iges_course course[2]; /* owned; of the file's u and v */
-	bool known, equal; /* the standard tells the file's parameters; they are those of s */
-};
 
 /* ---- curves of the file, composites taken apart */
 
@@ -125,8 +113,7 @@ static void join_turns(const struct trimmer *t, const struct trim_loop *loop, st
 	}
 }
 
-/* The loop as a whole is brought into the domain. */
-static void center_turns(const struct trimmer *t, struct trim_loop *loop)
+void iges_center_turns(const struct trimmer *t, struct trim_loop *loop)
 {
 	struct box b = box_empty();
 	for (int i = 0; i < loop->n; i++) {
@@ -254,9 +241,8 @@ static enum status compare_courses(struct trimmer *t, int de, bool reversed, int
 	return st == ST_INPUT ? ST_OK : st;
 }
 
-/* One stretch: curves in u,v (0: none) or the one in space (0: none), whichever is of use. */
-static enum status add_piece(struct trimmer *t, const int *uv, int n, int space, bool reversed,
-                             struct trim_loop *loop)
+enum status iges_add_piece(struct trimmer *t, const int *uv, int n, int space, bool reversed,
+                           struct trim_loop *loop)
 {
 	int first = loop->n;
 	enum status st = ST_INPUT;
@@ -279,84 +265,8 @@ static enum status add_piece(struct trimmer *t, const int *uv, int n, int space,
 	return add_space(t, space, reversed, loop);
 }
 
-/* ---- loops */
-
-/* 142: how made, surface, curve in u,v, curve in space, preference. */
-static enum status loop_142(struct trimmer *t, int de, struct trim_loop *loop)
-{
-	struct iges_cursor c;
-	enum status st = iges_open(t->g, de, 142, &c);
-	if (st != ST_OK)
-		return st;
-	iges_int(&c), iges_int(&c);
-	int uv = iges_int(&c), space = iges_int(&c);
-	return c.st == ST_OK ? add_piece(t, &uv, 1, space, false, loop) : c.st;
-}
-
-/* Pointers to n curves, with `step` numbers before each. Fresh. */
-static enum status read_list(struct iges_cursor *c, int n, int step, int **out)
-{
-	*out = calloc(n ? (size_t)n : 1, sizeof **out);
-	if (!*out)
-		return ST_RESOURCE;
-	for (int i = 0; i < n && c->st == ST_OK; i++) {
-		for (int k = 0; k < step; k++)
-			iges_int(c);
-		(*out)[i] = iges_int(c);
-	}
-	return c->st;
-}
-
-/* 141: type, preference, surface, then curves in space, their sense, their curves in u,v. */
-static enum status loop_141(struct trimmer *t, int de, struct trim_loop *loop)
-{
-	struct iges_cursor c;
-	enum status st = iges_open(t->g, de, 141, &c);
-	if (st != ST_OK)
-		return st;
-	iges_int(&c), iges_int(&c), iges_int(&c);
-	int n = iges_count(&c, "number of curves", 0, iges_left(&c));
-	for (int i = 0; i < n && st == ST_OK; i++) {
-		int *uv = NULL, space = iges_int(&c), sense = iges_int(&c);
-		int k = iges_count(&c, "number of curves in u,v", 0, iges_left(&c));
-		st = read_list(&c, k, 0, &uv);
-		if (st == ST_OK)
-			st = add_piece(t, uv, k, space, sense == 2, loop);
-		free(uv);
-	}
-	return st == ST_OK ? c.st : st;
-}
-
-/* 508: edge or vertex, list, place in it, sense, curves in u,v with their flags. A vertex without
- * a curve needs none: what it leaves open is closed by a line along the pole. */
-static enum status loop_508(struct trimmer *t, int de, struct trim_loop *loop)
-{
-	struct iges_cursor c;
-	enum status st = iges_open(t->g, de, 508, &c);
-	if (st != ST_OK)
-		return st;
-	int n = iges_count(&c, "number of edges", 0, iges_left(&c));
-	for (int i = 0; i < n && st == ST_OK; i++) {
-		int *uv = NULL, edge = 0;
-		int vertex = iges_int(&c), list = iges_int(&c), index = iges_int(&c);
-		int sense = iges_int(&c);
-		int k = iges_count(&c, "number of curves in u,v", 0, iges_left(&c));
-		st = read_list(&c, k, 1, &uv);
-		if (st == ST_OK && !vertex)
-			st = iges_edge(t->g, list, index, &edge);
-		if (st == ST_OK && !vertex && !edge && !k)
-			st = iges_refuse(t->g, "edge %d of D%d is not there", index, list);
-		if (st == ST_OK && (!vertex || k))
-			st = add_piece(t, uv, k, edge, sense == 0, loop);
-		free(uv);
-	}
-	return st == ST_OK ? c.st : st;
-}
-
-typedef enum status read_loop(struct trimmer *t, int de, struct trim_loop *loop);
-
-static enum status trimmer_init(struct trimmer *t, struct iges *g, int de, int base,
-                                const struct surface *s)
+enum status iges_trimmer_init(struct trimmer *t, struct iges *g, int de, int base,
+                              const struct surface *s)
 {
 	*t = (struct trimmer){ .g = g, .de = de, .s = s, .size = surface_size(s) };
 	t->tolerance = iges_tolerance(g, t->size);
@@ -369,134 +279,9 @@ static enum status trimmer_init(struct trimmer *t, struct iges *g, int de, int b
 	return st == ST_OK ? projector_create(&t->p, s) : st;
 }
 
-static void trimmer_finish(struct trimmer *t)
+void iges_trimmer_finish(struct trimmer *t)
 {
 	iges_course_finish(&t->course[0]);
 	iges_course_finish(&t->course[1]);
 	projector_destroy(t->p);
-}
-
-/* Read one loop into the trim; a lost inner one is counted and leaves the others. */
-static enum status add_loop(struct trimmer *t, int de, read_loop *read, bool outer,
-                            struct trim *out)
-{
-	struct trim_loop loop = { .outer = outer };
-	enum status st = read(t, de, &loop);
-	if (st == ST_OK && loop.n == 0)
-		st = iges_refuse(t->g, "a loop without curves");
-	if (st == ST_OK) {
-		center_turns(t, &loop);
-		return trim_add(out, &loop);
-	}
-	trim_loop_finish(&loop);
-	if (st != ST_INPUT || outer)
-		return st;
-	return model_skip(t->g->m, iges_entry(t->g, de) ? iges_entry(t->g, de)->type : 0, de,
-	                  t->g->reason);
-}
-
-/* 144: surface, has an outer loop, number of inner ones, outer loop, inner ones. Without an outer
- * loop the whole domain is meant. */
-static enum status trim_144(struct trimmer *t, struct iges_cursor *c, struct trim *out)
-{
-	iges_int(c);
-	bool has_outer = iges_int(c) != 0;
-	int n = iges_count(c, "number of inner loops", 0, iges_left(c)), outer = iges_int(c);
-	enum status st = c->st;
-	if (st == ST_OK && has_outer)
-		st = add_loop(t, outer, loop_142, true, out);
-	for (int i = 0; i < n && st == ST_OK; i++) {
-		int inner = iges_int(c);
-		st = c->st == ST_OK ? add_loop(t, inner, loop_142, false, out) : c->st;
-	}
-	return st;
-}
-
-/* Twice the area that a loop encloses in u,v, by the points of its curves. */
-static double loop_area(const struct trim_loop *l)
-{
-	enum { SAMPLES = 16 };
-	double area = 0;
-	const struct curve *end = &l->curves[l->n - 1];
-	struct vec3 a = curve_point(end, end->domain[1]);
-	for (int i = 0; i < l->n; i++)
-		for (int k = 0; k <= SAMPLES; k++) {
-			const struct curve *c = &l->curves[i];
-			struct vec3 b = curve_point(
-			        c, c->domain[0] + (c->domain[1] - c->domain[0]) * k / SAMPLES);
-			area += a.x * b.y - a.y * b.x;
-			a = b;
-		}
-	return fabs(area);
-}
-
-/* Loops that are not told apart: the largest is the outer one. */
-static void find_outer(struct trim *t)
-{
-	int largest = 0;
-	for (int i = 1; i < t->n; i++)
-		if (loop_area(&t->loops[i]) > loop_area(&t->loops[largest]))
-			largest = i;
-	for (int i = 0; i < t->n; i++)
-		t->loops[i].outer = i == largest;
-}
-
-/* 143: type, surface, boundaries; 510: surface, number, whether the first is the outer one. */
-static enum status trim_listed(struct trimmer *t, struct iges_cursor *c, bool is_face,
-                               struct trim *out)
-{
-	bool told = false;
-	if (!is_face)
-		iges_int(c);
-	iges_int(c);
-	int n = iges_count(c, "number of loops", 0, iges_left(c));
-	if (is_face)
-		told = iges_int(c) == 1;
-	enum status st = c->st;
-	for (int i = 0; i < n && st == ST_OK; i++) {
-		int de = iges_int(c);
-		if (c->st != ST_OK)
-			return c->st;
-		st = add_loop(t, de, is_face ? loop_508 : loop_141, told ? i == 0 : true, out);
-	}
-	if (st == ST_OK && !told && out->n)
-		find_outer(out);
-	return st;
-}
-
-enum status iges_trim(struct iges *g, int de, int base, const struct surface *s, struct trim *out)
-{
-	struct iges_cursor c;
-	struct trimmer t;
-	*out = (struct trim){ 0 };
-	enum status st = trimmer_init(&t, g, de, base, s);
-	if (st == ST_OK)
-		st = iges_open(g, de, 0, &c);
-	if (st == ST_OK && iges_entry(g, de)->type == 144)
-		st = trim_144(&t, &c, out);
-	else if (st == ST_OK)
-		st = trim_listed(&t, &c, iges_entry(g, de)->type == 510, out);
-	trimmer_finish(&t);
-	if (st != ST_OK)
-		trim_finish(out);
-	return st;
-}
-
-enum status iges_trim_curves(struct iges *g, int de, const struct surface *s, struct trim_loop *uv)
-{
-	struct trimmer t;
-	struct iges_cursor c;
-	*uv = (struct trim_loop){ 0 };
-	enum status st = iges_open(g, de, 142, &c);
-	if (st != ST_OK)
-		return st;
-	iges_int(&c);
-	int base = iges_int(&c);
-	st = trimmer_init(&t, g, de, base, s);
-	if (st == ST_OK)
-		st = loop_142(&t, de, uv);
-	trimmer_finish(&t);
-	if (st != ST_OK)
-		trim_loop_finish(uv);
-	return st;
 }

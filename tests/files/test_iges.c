@@ -258,11 +258,131 @@ static void damaged_files_are_survived(void **state)
 	text_finish(&t);
 }
 
+/* What is mended or passed over, the sentence about it, and where entity D1 leads at u (and v) 0.25. */
+static void traps_are_mended_and_told(void **state)
+{
+	static const struct {
+		struct made_entity entities[3];
+		struct vec3 p;
+		const char *said; /* NULL: nothing */
+	} rows[] = {
+		/* the flag of a polynomial with weights that differ; all weights zero */
+		{ { { 126, 0,
+		      "126,1,1,1,0,1,0," KNOTS4 "1.,3.,0.,0.,0.,1.,0.,0.,0.,1.,0.,0.,1.;" } },
+		  { 0.5, 0, 0 },
+		  "flag of a polynomial" },
+		{ { { 126, 0,
+		      "126,1,1,1,0,1,0," KNOTS4 "0.,0.,0.,0.,0.,1.,0.,0.,0.,1.,0.,0.,1.;" } },
+		  { 0.25, 0, 0 },
+		  "weights of 1 are taken" },
+		/* the flag of a rational with weights that do not differ harms nothing */
+		{ { { 126, 0,
+		      "126,1,1,1,0,0,0," KNOTS4 "2.,2.,0.,0.,0.,1.,0.,0.,0.,1.,0.,0.,1.;" } },
+		  { 0.25, 0, 0 },
+		  NULL },
+		/* the last knot too high, alone and with the range */
+		{ { { 126, 0,
+		      "126,1,1,1,0,1,0,0.,0.,1.,7.,1.,1.,0.,0.,0.,1.,0.,0.,0.,1.,0.,0.,1.;" } },
+		  { 0.25, 0, 0 },
+		  NULL },
+		{ { { 126, 0,
+		      "126,1,1,1,0,1,0,0.,0.,1.,7.,1.,1.,0.,0.,0.,1.,0.,0.,0.,7.,0.,0.,1.;" } },
+		  { 0.25, 0, 0 },
+		  "beyond the knots" },
+		{ { { 128, 0,
+		      "128,1,1,1,1,0,0,1,0,0," KNOTS4 "0.,0.,1.,9.,1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,"
+		      "0.,1.,0.,1.,1.,0.,0.,1.,0.,9.;" } },
+		  { 0.25, 0.25, 0 },
+		  "beyond the knots" },
+		/* U0 and U1 exchanged; U0 .. V1 left out */
+		{ { { 128, 0,
+		      "128,1,1,1,1,0,0,1,0,0," KNOTS4 KNOTS4 "1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,"
+		      "0.,1.,0.,1.,1.,0.,1.,0.,0.,1.;" } },
+		  { 0.25, 0.25, 0 },
+		  "makes no sense" },
+		{ { { 128, 0,
+		      "128,1,1,1,1,0,0,1,0,0," KNOTS4 KNOTS4 "1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,"
+		      "0.,1.,0.,1.,1.,0.;" } },
+		  { 0.25, 0.25, 0 },
+		  "no parameter range" },
+		/* pointers to the second line, in the directory and in the data */
+		{ { { 128, 0, SQUARE, 4 }, { 124, 0, MOVE } },
+		  { 10.25, 20.25, 30 },
+		  "(the first is D3): referred to by the number of their second directory line" },
+		{ { { 102, 0, "102,1,4;" }, { 110, 0, "110,0.,0.,0.,4.,0.,0.;" } },
+		  { 1, 0, 0 },
+		  "second directory line" },
+		/* no parameters of its own */
+		{ { { 128, 0, "" }, { 128, 0, SQUARE } }, { 0.25, 0.25, 0 }, "another's" },
+		/* blanked; dependent, but of nothing; a member of what nothing places */
+		{ { { 128, 0, SQUARE, 0, 0, "01000000" } }, { 0.25, 0.25, 0 }, "blanked" },
+		{ { { 128, 0, SQUARE, 0, 0, "00010000" } }, { 0.25, 0.25, 0 }, NULL },
+		{ { { 128, 0, SQUARE }, { 308, 0, "308,0,1HA,1,1;" } },
+		  { 0.25, 0.25, 0 },
+		  "nothing places" },
+		/* the same again is there again */
+		{ { { 128, 0, SQUARE }, { 128, 0, SQUARE } }, { 0.25, 0.25, 0 }, NULL },
+	};
+	(void)state;
+	for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+		struct made_entity entities[MADE_MAX] = { rows[i].entities[0], rows[i].entities[1],
+			                                  rows[i].entities[2] };
+		const struct made_file f = { 0 };
+		struct model m;
+		struct report_store store;
+		struct entity *e;
+		if (read_made(&m, &f, entities, &store) != ST_OK)
+			fail_msg("row %zu: %s", i, store.error);
+		assert_int_equal(m.n_skipped, 0);
+		assert_int_equal(model_find(&m, "D1", &e, NULL), ST_OK);
+		assert_point(i,
+		             e->kind == ENTITY_CURVE ? curve_point(&e->curve, 0.25)
+		                                     : surface_point(&e->geometry, 0.25, 0.25),
+		             rows[i].p);
+		if (m.n_warnings != (rows[i].said != NULL) ||
+		    (rows[i].said && !strstr(m.warnings[0], rows[i].said)))
+			fail_msg("row %zu: %d warnings: %s", i, m.n_warnings,
+			         m.n_warnings ? m.warnings[0] : "-");
+		model_finish(&m);
+	}
+}
+
+/* Two directory lines of different types; a last line that counts more than there is. */
+static void lines_that_disagree_are_told(void **state)
+{
+	static const struct {
+		const char *find, *replace, *said;
+	} rows[] = {
+		{ "     128       0       0       2", "     126       0       0       2",
+		  "name different types" },
+		{ "D      2P      2", "D      4P      9", "lines are missing" },
+	};
+	const struct made_entity entities[] = { { 128, 0, SQUARE } };
+	const struct made_file f = { 0 };
+	(void)state;
+	for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+		struct text t = { 0 };
+		struct model m;
+		make_iges(&t, &f, entities, 1);
+		char *at = strstr(t.s, rows[i].find);
+		assert_non_null(at);
+		memcpy(at, rows[i].replace, strlen(rows[i].replace));
+		model_init(&m);
+		assert_int_equal(iges_parse(&m, t.s, t.n, "x.igs", NULL, NULL), ST_OK);
+		assert_int_equal(m.n_warnings, 1);
+		assert_non_null(strstr(m.warnings[0], rows[i].said));
+		model_finish(&m);
+		text_finish(&t);
+	}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(headers_and_their_faults),
 		cmocka_unit_test(files_as_programs_write_them),
+		cmocka_unit_test(traps_are_mended_and_told),
+		cmocka_unit_test(lines_that_disagree_are_told),
 		cmocka_unit_test(whole_files_refused),
 		cmocka_unit_test(parts_are_not_counted),
 		cmocka_unit_test(stops_when_told),
