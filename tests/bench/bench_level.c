@@ -131,7 +131,11 @@ static void sum_add(struct sum *sum, const struct level_result *x)
 /* From the surface on; what is prepared for the first value serves all. */
 static enum status run(const struct surface *s, const struct row *row, struct sum *sum)
 {
-	struct level_field field = { row->kind, row->direction, row->value, row->point, row->eye };
+	struct level_field field = { .kind = row->kind,
+		                     .direction = row->direction,
+		                     .value = row->value,
+		                     .point = row->point,
+		                     .eye = row->eye };
 	struct level *first = NULL;
 	enum status st = level_create(&first, s, &field, row->tolerance, NULL);
 	*sum = (struct sum){ 0 };

@@ -34,13 +34,13 @@ static double miss(const struct surface *s, const struct level_field *f, double 
 }
 
 static const struct level_field fields[] = {
-	{ LEVEL_CYLINDER, { 1, 0, 0 }, 0.3, { 0, 5, 0 }, { 0, 0, 0 } },
-	{ LEVEL_CYLINDER, { 1, 2, 0.3 }, 1.3, { 3, 5, 0 }, { 0, 0, 0 } },
-	{ LEVEL_EYE, { 0, 0, 0 }, 0, { 0, 0, 0 }, { 30, 18, 14 } },
-	{ LEVEL_HIGHLIGHT, { 1, 2, 0.3 }, 0, { 3, 5, 10 }, { 0, 0, 0 } },
-	{ LEVEL_HIGHLIGHT, { 1, 2, 0.3 }, 0.5, { 3, 5, 10 }, { 0, 0, 0 } },
-	{ LEVEL_HIGHLIGHT, { 1, 2, 0.3 }, -0.5, { 3, 5, 10 }, { 0, 0, 0 } },
-	{ LEVEL_REFLECTION, { 1, 0.2, 0.3 }, 0, { 3, 5, 10 }, { 20, -10, 15 } },
+	{ LEVEL_CYLINDER, { 1, 0, 0 }, 0.3, { 0, 5, 0 }, { 0, 0, 0 }, 0 },
+	{ LEVEL_CYLINDER, { 1, 2, 0.3 }, 1.3, { 3, 5, 0 }, { 0, 0, 0 }, 0 },
+	{ LEVEL_EYE, { 0, 0, 0 }, 0, { 0, 0, 0 }, { 30, 18, 14 }, 0 },
+	{ LEVEL_HIGHLIGHT, { 1, 2, 0.3 }, 0, { 3, 5, 10 }, { 0, 0, 0 }, 0 },
+	{ LEVEL_HIGHLIGHT, { 1, 2, 0.3 }, 0.5, { 3, 5, 10 }, { 0, 0, 0 }, 0 },
+	{ LEVEL_HIGHLIGHT, { 1, 2, 0.3 }, -0.5, { 3, 5, 10 }, { 0, 0, 0 }, 0 },
+	{ LEVEL_REFLECTION, { 1, 0.2, 0.3 }, 0, { 3, 5, 10 }, { 20, -10, 15 }, 0 },
 };
 
 static void trace(const struct surface *s, const struct level_field *f, double tolerance,

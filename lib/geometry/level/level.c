@@ -21,7 +21,11 @@ const struct level_shape level_shapes[N_LEVEL_KINDS] = {
 	                      .side = true,
 	                      .several = true },
 	[LEVEL_REFLECTION] = { { 2, 2 }, { 2, 2 }, .line = true, .several = true },
+	[LEVEL_CURVATURE] = { { 4, 4 }, { 0, 0 }, .valued = true, .several = true },
 };
+
+/* Above this order of a rational surface lines of curvature have a degree above FIELD_DEGREE_MAX. */
+enum { CURVATURE_ORDER_RATIONAL = 17 };
 
 /* Right-handed rows of unit vectors, the last along d. */
 static void frame_make(struct vec3 d, double frame[3][3])
@@ -50,6 +54,8 @@ static void surface_destroy(struct level_surface *s)
 	free(s->bent[0]);
 	free(s->bent[1]);
 	free(s->normal_error);
+	free(s->factors);
+	free(s->root);
 	free(s->shapes);
 	free(s->binomial);
 	free(s);
@@ -141,8 +147,57 @@ static int larger_order(const struct level_surface *s)
 	return s->net.order[0] > s->net.order[1] ? s->net.order[0] : s->net.order[1];
 }
 
+/* Second derivatives need degree 2. */
+static enum status curvature_prepare(struct level_surface *s, enum quantity quantity)
+{
+	enum status st = ST_OK;
+	s->quantity = quantity;
+	for (int d = 0; st == ST_OK && d < 2; d++)
+		if (s->net.order[d] == 2)
+			st = level_net_raise(&s->net, d);
+	s->root = quantity == QUANTITY_GAUSSIAN ? NULL : malloc(sizeof *s->root);
+	return st != ST_OK || s->root || quantity == QUANTITY_GAUSSIAN ? st : ST_RESOURCE;
+}
+
+/* Degrees, binomials, normals; for the length of the normal patches are halved. */
+static enum status forms_prepare(struct level_surface *s, double tolerance)
+{
+	int factors = s->net.rational ? 3 : 2, highest = 0;
+	for (int d = 0; d < 2; d++) {
+		s->degree[d] = factors * (s->net.order[d] - 1) - 1;
+		highest = highest > s->degree[d] ? highest : s->degree[d];
+	}
+	int most = 2 * (highest + larger_order(s));
+	if (s->kind == LEVEL_CURVATURE)
+		most = 4 * highest + 2 * ROOT_DEGREE;
+	s->binomial = binomial_make(most);
+	if (!s->binomial)
+		return ST_RESOURCE;
+	if (!level_needs_normals(s->kind))
+		return ST_OK;
+	enum status st = level_normals(s);
+	if (st != ST_OK || !s->root)
+		return st;
+	level_root_tables(s->root, s->degree, s->binomial);
+	/* relative to the size of a patch, as a rule, and what rounding allows */
+	double share = 1e-4 * tolerance / (s->net.size + 1e-300);
+	return level_root_refine(s, smaller(larger(share, 1e-13), 1e-11));
+}
+
+static enum status edges_create(struct level_surface *s)
+{
+	for (int d = 0; d < 2; d++) {
+		int lines[2] = { s->net.spans[0] + (d == 0), s->net.spans[1] + (d == 1) };
+		s->edges[d] = calloc((size_t)lines[0] * lines[1], 1);
+		s->bent[d] = calloc((size_t)lines[0] * lines[1], 1);
+		if (!s->edges[d] || !s->bent[d])
+			return ST_RESOURCE;
+	}
+	return ST_OK;
+}
+
 static enum status surface_create(struct level_surface **out, const struct surface *from,
-                                  const struct level_field *field)
+                                  const struct level_field *field, double tolerance)
 {
 	struct level_surface *s = calloc(1, sizeof *s);
 	if (!s)
@@ -160,29 +215,18 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 		s->eye[d] = vec3_dot(row, field->eye);
 		s->gap[d] = vec3_dot(row, vec3_sub(field->point, field->eye));
 	}
-	int factors = s->net.rational ? 3 : 2, highest = 0;
-	for (int d = 0; d < 2; d++) {
-		s->degree[d] = factors * (s->net.order[d] - 1) - 1;
-		highest = highest > s->degree[d] ? highest : s->degree[d];
-	}
-	st = ST_RESOURCE;
-	s->binomial = binomial_make(2 * (highest + larger_order(s)));
-	for (int d = 0; d < 2; d++) {
-		int lines[2] = { s->net.spans[0] + (d == 0), s->net.spans[1] + (d == 1) };
-		s->edges[d] = calloc((size_t)lines[0] * lines[1], 1);
-		s->bent[d] = calloc((size_t)lines[0] * lines[1], 1);
-	}
-	if (!s->binomial || !s->edges[0] || !s->edges[1] || !s->bent[0] || !s->bent[1])
-		goto fail;
-	if (level_needs_normals(s->kind)) {
-		st = level_normals(s);
-		if (st != ST_OK)
-			goto fail;
-	}
-	st = shapes_make(s);
+	if (s->kind == LEVEL_CURVATURE)
+		st = curvature_prepare(s, field->quantity);
+	if (st == ST_OK)
+		st = forms_prepare(s, tolerance);
+	if (st == ST_OK)
+		st = edges_create(s);
+	if (st == ST_OK)
+		st = shapes_make(s);
+	if (st == ST_OK)
+		st = level_edges(s);
 	if (st != ST_OK)
 		goto fail;
-	level_edges(s);
 	level_proof_tables(&s->proof);
 	*out = s;
 	return ST_OK;
@@ -198,9 +242,6 @@ static enum status level_set(struct level *l, const struct level_field *field, d
 	const struct level_surface *s = l->surface;
 	const struct level_shape *shape = &level_shapes[field->kind];
 	bool angle = field->kind == LEVEL_ISOPHOTE, radius = field->kind == LEVEL_CYLINDER;
-	if (!(tolerance > 0) || !isfinite(tolerance))
-		return report_error(r, ST_PARAMETER,
-		                    "tolerance %g, expected a length greater than 0", tolerance);
 	if (!isfinite(field->value) || (angle && fabs(field->value) > 1) ||
 	    (radius && !(field->value > 0)))
 		return report_error(r, ST_PARAMETER, "level %g, expected %s", field->value,
@@ -216,9 +257,15 @@ static enum status level_set(struct level *l, const struct level_field *field, d
 	for (int d = 0; d < 3; d++)
 		l->direction[d] = s->frame[2][d];
 	l->direction[3] = shape->line ? -l->value / vec3_length(field->direction) : 0;
-	for (int d = 0; d < 2; d++)
+	for (int d = 0; d < 2; d++) {
 		l->degree[d] = shape->normal[l->value != 0] * s->degree[d] +
 		               shape->point[l->value != 0] * (s->net.order[d] - 1);
+		l->side_degree[d] = l->degree[d] / 2;
+	}
+	if (field->kind == LEVEL_CURVATURE) {
+		level_curvature_degree(l);
+		l->side = s->quantity == QUANTITY_KMAX || s->quantity == QUANTITY_KMIN;
+	}
 	return ST_OK;
 }
 
@@ -240,6 +287,23 @@ static enum status level_new(struct level **out, struct level_surface *s, bool o
 	return ST_OK;
 }
 
+static bool curvature_wrong(const struct surface *s, enum quantity quantity, const struct report *r)
+{
+	const int order = s->order[0] > s->order[1] ? s->order[0] : s->order[1];
+	if (quantity == QUANTITY_ABSOLUTE || quantity >= N_QUANTITIES)
+		report_error(
+		        r, ST_PARAMETER,
+		        "lines of constant absolute curvature are not traced; take kmax or kmin");
+	else if (s->rational && order > CURVATURE_ORDER_RATIONAL)
+		report_error(r, ST_PARAMETER,
+		             "order %d is above %d, the highest for lines of constant curvature on "
+		             "a rational surface; lower the degree",
+		             order, CURVATURE_ORDER_RATIONAL);
+	else
+		return false;
+	return true;
+}
+
 enum status level_create(struct level **out, const struct surface *s,
                          const struct level_field *field, double tolerance, const struct report *r)
 {
@@ -251,7 +315,12 @@ enum status level_create(struct level **out, const struct surface *s,
 		return report_error(r, ST_PARAMETER,
 		                    "direction %g,%g,%g, expected one of finite length above 0",
 		                    field->direction.x, field->direction.y, field->direction.z);
-	enum status st = surface_create(&made, s, field);
+	if (!(tolerance > 0) || !isfinite(tolerance))
+		return report_error(r, ST_PARAMETER,
+		                    "tolerance %g, expected a length greater than 0", tolerance);
+	if (field->kind == LEVEL_CURVATURE && curvature_wrong(s, field->quantity, r))
+		return ST_PARAMETER;
+	enum status st = surface_create(&made, s, field, tolerance);
 	if (st != ST_OK)
 		return report_error(r, st, "no memory for the Bezier patches of a surface");
 	st = level_new(out, made, true, field, tolerance, r);
@@ -265,6 +334,7 @@ enum status level_create_like(struct level **out, const struct level *first, dou
 {
 	const double *d = first->direction;
 	struct level_field field = { .kind = first->surface->kind,
+		                     .quantity = first->surface->quantity,
 		                     .direction = vec3(d[0], d[1], d[2]),
 		                     .value = value };
 	return level_new(out, first->surface, false, &field, first->tolerance, r);

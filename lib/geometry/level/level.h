@@ -15,6 +15,7 @@
 #include <stdint.h>
 
 #include "bezier.h"
+#include "curvature.h"
 #include "curve.h"
 #include "surface.h"
 #include "text.h"
@@ -28,6 +29,7 @@ enum level_kind {
 	LEVEL_HIGHLIGHT,  /* the line along N through S passes the line through `point` along
 	                     `direction` at the signed distance `value`, 0: meets it */
 	LEVEL_REFLECTION, /* the ray from `eye` that S reflects meets that line, both as whole lines */
+	LEVEL_CURVATURE, /* `quantity` = value; all but QUANTITY_ABSOLUTE */
 	N_LEVEL_KINDS
 };
 
@@ -37,6 +39,7 @@ struct level_field {
 	struct vec3 direction; /* any length but 0 */
 	double value;
 	struct vec3 point, eye;
+	enum quantity quantity;
 };
 
 struct level; /* opaque: one surface, one field, its Bezier net; read-only after create */

@@ -283,6 +283,11 @@ static bool cell_decide(struct tracer *t, const struct cell *cell, const double 
 	return true;
 }
 
+void level_patch_undecided(struct tracer *t, bool flat)
+{
+	undecided_add(t, &(struct cell){ .error = 0 }, flat);
+}
+
 /* The array of cells at a depth, made when first needed. */
 static double *scratch_at(struct tracer *t, int depth)
 {
@@ -330,7 +335,8 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 		return;
 	form_split(c, m, n, d, lower);
 	if (t->n_side)
-		form_split(c + t->n_field, m / 2, n / 2, d, lower + t->n_field);
+		form_split(c + t->n_field, t->level->side_degree[0], t->level->side_degree[1], d,
+		           lower + t->n_field);
 	/* as many means are taken one after another */
 	cell.error += (d == 0 ? m : n) * UNIT_ROUNDOFF * most;
 	cell.level[d]++;

@@ -176,6 +176,8 @@ static void take_out_pole(struct tracer *t, double *c, int d, bool upper)
 static void clean_sides(struct tracer *t, double *c)
 {
 	const struct level_surface *s = surface_of(t);
+	/* normal curvature: the square of the tangent along the pole's side is in both terms */
+	const bool squared = s->kind == LEVEL_CURVATURE && s->quantity >= QUANTITY_NORMAL_U;
 	for (int k = 0; k < 4; k++) {
 		int d = k / 2, upper = k % 2, at = t->place[d] + upper;
 		struct row side = row_of(t, d, upper, 0), next = row_of(t, d, upper, 1);
@@ -184,9 +186,11 @@ static void clean_sides(struct tracer *t, double *c)
 		row_clear(c, side);
 		size_t edge = d == 0 ? level_edge(s, 0, at, t->place[1])
 		                     : level_edge(s, 1, t->place[0], at);
-		if (s->edges[d][edge] == EDGE_POLE && !row_is_zero(t, c, next))
-			take_out_pole(t, c, d, upper);
-		else if (s->edges[d][edge] == EDGE_BORDER)
+		if (s->edges[d][edge] == EDGE_POLE && (squared || !row_is_zero(t, c, next))) {
+			for (int times = squared ? 2 : 1; times > 0 && row_is_zero(t, c, side);
+			     times--)
+				take_out_pole(t, c, d, upper);
+		} else if (s->edges[d][edge] == EDGE_BORDER)
 			row_mirror(c, side, next);
 	}
 }
@@ -195,10 +199,12 @@ bool level_field_make(struct tracer *t, double *out)
 {
 	const struct level *l = t->level;
 	t->own_field = false;
-	bool there = level_shapes[surface_of(t)->kind].several ? level_kind_make(t, out)
-	             : surface_of(t)->kind == LEVEL_PLANE      ? plane_make(t, out)
-	             : l->value == 0                           ? silhouette_make(t, out)
-	                                                       : isophote_make(t, out);
+	const enum level_kind kind = surface_of(t)->kind;
+	bool there = kind == LEVEL_CURVATURE      ? level_curvature_make(t, out)
+	             : level_shapes[kind].several ? level_kind_make(t, out)
+	             : kind == LEVEL_PLANE        ? plane_make(t, out)
+	             : l->value == 0              ? silhouette_make(t, out)
+	                                          : isophote_make(t, out);
 	if (!there)
 		return false;
 	clean_sides(t, out);
@@ -216,6 +222,9 @@ void level_field_at(const struct tracer *t, double u, double v, struct field_poi
 	if (t->own_field) {
 		form_evaluate(t->field, l->degree[0], l->degree[1], u, v, &out->f, &out->fu,
 		              &out->fv);
+	} else if (s->kind == LEVEL_CURVATURE) {
+		/* without its form only the place is asked for */
+		out->f = out->fu = out->fv = 0;
 	} else if (level_shapes[s->kind].several) {
 		struct field_jets j = { 0 };
 		memcpy(j.x[0], x, sizeof x);

@@ -11,85 +11,10 @@
  * Source of the highlight line: Beier and Chen, Highlight-line algorithm for realtime surface
  * quality assessment, CAD 26 (1994).
  */
-#include "level_form.h"
-#include "level_private.h"
+#include "level_term.h"
 
 #include <math.h>
 #include <string.h>
-
-/* A form in scaled coefficients, in the room that the tracer has for them. */
-struct form {
-	double *c;
-	int m, n;
-	struct bound b; /* of the coefficients before scaling */
-};
-
-static size_t form_count(int m, int n)
-{
-	return (size_t)(m + 1) * (n + 1);
-}
-
-/* One more, zero; level_kind_room counts them. */
-static struct form form_new(struct tracer *t, int m, int n)
-{
-	struct form f = { t->product + t->n_product, m, n, { 0, 0 } };
-	t->n_product += form_count(m, n);
-	memset(f.c, 0, sizeof *f.c * form_count(m, n));
-	return f;
-}
-
-/* out += weight a b */
-static void add_product(struct form *out, struct form a, struct form b, double weight)
-{
-	form_product(a.c, a.m, a.n, b.c, b.m, b.n, weight, out->c);
-	out->b = bound_sum(out->b, weight, bound_product(a.b, b.b, out->m, out->n));
-}
-
-static void add_square(struct form *out, struct form a, double weight)
-{
-	form_square(a.c, a.m, a.n, weight, out->c);
-	out->b = bound_sum(out->b, weight, bound_product(a.b, a.b, out->m, out->n));
-}
-
-/* The normal's component d. */
-static struct form normal_form(struct tracer *t, int d)
-{
-	const struct level_surface *s = t->level->surface;
-	struct form f = form_new(t, s->degree[0], s->degree[1]);
-	for (size_t i = 0; i < form_count(f.m, f.n); i++)
-		f.c[i] = t->normals[4 * i + d];
-	f.b = (struct bound){ form_most(f.c, form_count(f.m, f.n)), s->normal_error[t->patch] };
-	form_scale(f.c, f.m, f.n, s->binomial, false);
-	return f;
-}
-
-/* Of a component of X - from w in the frame. */
-static struct bound moved_bound(const struct level_surface *s, const double from[3])
-{
-	double away = vec3_length(vec3_of(from));
-	struct bound b = { s->of_points.size + away * s->of_weights.size, 0 };
-	b.error = 2 * s->of_points.error + away * s->of_weights.error + 16 * UNIT_ROUNDOFF * b.size;
-	return b;
-}
-
-/* X - from w, in the frame: three components and w. */
-static void point_forms(struct tracer *t, const double from[3], struct form out[4])
-{
-	const struct level_surface *s = t->level->surface;
-	int m = s->net.order[0] - 1, n = s->net.order[1] - 1;
-	for (int d = 0; d < 4; d++) {
-		struct form f = form_new(t, m, n);
-		for (size_t i = 0; i < form_count(m, n); i++) {
-			const double *p = t->points + 4 * i, *r = s->frame[d % 3];
-			f.c[i] = d == 3 ? p[3]
-			                : r[0] * p[0] + r[1] * p[1] + r[2] * p[2] - from[d] * p[3];
-		}
-		f.b = d == 3 ? s->of_weights : moved_bound(s, from);
-		f.b.size = form_most(f.c, form_count(m, n));
-		form_scale(f.c, m, n, s->binomial, false);
-		out[d] = f;
-	}
-}
 
 /* All points about the axis lie inside the circle, or all beyond one line that touches it. */
 static bool circle_excludes(const struct tracer *t, double radius)
@@ -97,7 +22,7 @@ static bool circle_excludes(const struct tracer *t, double radius)
 	const struct level_surface *s = t->level->surface;
 	size_t count = bezier_patch_size(&s->net) / 4;
 	double mx = 0, my = 0;
-	double error = 3 * moved_bound(s, s->point).error + 3 * radius * s->of_weights.error;
+	double error = 3 * form_moved_bound(s, s->point).error + 3 * radius * s->of_weights.error;
 	bool inside = true;
 	for (size_t i = 0; i < count; i++) {
 		const double *p = t->points + 4 * i;
@@ -136,19 +61,19 @@ static bool cylinder_make(struct tracer *t, struct form *f)
 	struct form x[4];
 	if (circle_excludes(t, r))
 		return false;
-	point_forms(t, s->point, x);
-	add_square(f, x[0], 1);
-	add_square(f, x[1], 1);
-	add_square(f, x[3], -r * r);
+	form_points(t, s->point, x);
+	form_add_square(f, x[0], 1);
+	form_add_square(f, x[1], 1);
+	form_add_square(f, x[3], -r * r);
 	return true;
 }
 
 static bool eye_make(struct tracer *t, struct form *f)
 {
 	struct form d[4];
-	point_forms(t, t->level->surface->eye, d);
+	form_points(t, t->level->surface->eye, d);
 	for (int k = 0; k < 3; k++)
-		add_product(f, normal_form(t, k), d[k], 1);
+		form_add_product(f, form_normal(t, k), d[k], 1);
 	return true;
 }
 
@@ -156,24 +81,24 @@ static bool highlight_make(struct tracer *t, struct form *f)
 {
 	const struct level_surface *s = t->level->surface;
 	double away = t->level->value;
-	struct form x[4], nx = normal_form(t, 0), ny = normal_form(t, 1);
-	point_forms(t, s->point, x); /* -Q */
+	struct form x[4], nx = form_normal(t, 0), ny = form_normal(t, 1);
+	form_points(t, s->point, x); /* -Q */
 	int m = nx.m + x[0].m, n = nx.n + x[0].n;
 	struct form fresh, *g = f;
 	if (away != 0) {
 		fresh = form_new(t, m, n);
 		g = &fresh;
 	}
-	add_product(g, nx, x[1], 1);
-	add_product(g, ny, x[0], -1);
+	form_add_product(g, nx, x[1], 1);
+	form_add_product(g, ny, x[0], -1);
 	if (away == 0)
 		return true;
 	struct form h = form_new(t, 2 * nx.m, 2 * nx.n), w = form_new(t, 2 * x[3].m, 2 * x[3].n);
-	add_square(&h, nx, 1);
-	add_square(&h, ny, 1);
-	add_square(&w, x[3], 1);
-	add_square(f, *g, 1);
-	add_product(f, h, w, -away * away);
+	form_add_square(&h, nx, 1);
+	form_add_square(&h, ny, 1);
+	form_add_square(&w, x[3], 1);
+	form_add_square(f, *g, 1);
+	form_add_product(f, h, w, -away * away);
 	form_scale(g->c, m, n, s->binomial, true);
 	double *side = f->c + t->n_field;
 	for (size_t i = 0; i < t->n_side; i++)
@@ -187,9 +112,9 @@ static bool reflection_make(struct tracer *t, struct form *f)
 	const struct level_surface *s = t->level->surface;
 	const double *gap = s->gap;
 	struct form d[4], q[2], normal[3];
-	point_forms(t, s->eye, d);
+	form_points(t, s->eye, d);
 	for (int k = 0; k < 3; k++)
-		normal[k] = normal_form(t, k);
+		normal[k] = form_normal(t, k);
 	int m = d[0].m, n = d[0].n, nm = normal[0].m, nn = normal[0].n;
 	struct form across = form_new(t, m, n), a = form_new(t, 2 * m, 2 * n);
 	struct form square = form_new(t, 2 * nm, 2 * nn);
@@ -203,15 +128,15 @@ static bool reflection_make(struct tracer *t, struct form *f)
 	for (size_t i = 0; i < form_count(m, n); i++)
 		across.c[i] = d[1].c[i] * gap[0] - d[0].c[i] * gap[1];
 	across.b = bound_sum(bound_sum(across.b, gap[0], d[1].b), gap[1], d[0].b);
-	add_product(&a, across, d[3], 1);
+	form_add_product(&a, across, d[3], 1);
 	for (int k = 0; k < 3; k++) {
-		add_square(&square, normal[k], 1);
-		add_product(&b, normal[k], d[k], 1);
+		form_add_square(&square, normal[k], 1);
+		form_add_product(&b, normal[k], d[k], 1);
 	}
-	add_product(&c, normal[1], q[0], 1);
-	add_product(&c, normal[0], q[1], -1);
-	add_product(f, square, a, 1);
-	add_product(f, b, c, -2);
+	form_add_product(&c, normal[1], q[0], 1);
+	form_add_product(&c, normal[0], q[1], -1);
+	form_add_product(f, square, a, 1);
+	form_add_product(f, b, c, -2);
 	return true;
 }
 

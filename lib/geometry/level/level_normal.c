@@ -141,7 +141,7 @@ static void term_add(const struct maker *k, int a, int b, int w, double sign, in
 }
 
 /* The normal vanishes on a whole side of the patch: its factor out, at most twice. */
-static void take_out_factors(struct maker *k)
+static void take_out_factors(struct maker *k, unsigned char *factors)
 {
 	int m = k->s->degree[0], n = k->s->degree[1];
 	for (int side = 0; side < 8; side++) {
@@ -163,6 +163,7 @@ static void take_out_factors(struct maker *k)
 			form_divide(k->n[c], m, n, d, upper);
 			form_scale(k->n[c], m, n, k->s->binomial, true);
 		}
+		factors[2 * d + upper]++;
 		/* a coefficient that had the number i of n has now n / i of its error */
 		k->normal.error *= (d == 0 ? m : n) + 1;
 	}
@@ -199,7 +200,7 @@ static void normal_make(struct maker *k, int patch)
 	for (int i = 0; i < 3; i++)
 		form_scale(k->n[i], s->degree[0], s->degree[1], s->binomial, true);
 	take_out_noise(k, count);
-	take_out_factors(k);
+	take_out_factors(k, s->factors + (size_t)4 * patch);
 	for (int i = 0; i < 3; i++) {
 		for (size_t c = 0; c < count; c++)
 			out[4 * c + i] = k->n[i][c];
@@ -225,10 +226,14 @@ enum status level_normals(struct level_surface *s)
 	k.center[1] = 0.5 * (lo.y + hi.y);
 	k.center[2] = 0.5 * (lo.z + hi.z);
 	k.room = (size_t)(s->degree[0] + 1) * (s->degree[1] + 1);
+	free(s->normals);
+	free(s->normal_error);
+	free(s->factors);
 	s->normals = calloc((size_t)patches, sizeof(double) * level_normals_size(s));
+	s->factors = calloc((size_t)patches, 4);
 	k.x = calloc((FORMS + 4) * k.room, sizeof(double));
 	s->normal_error = calloc((size_t)patches, sizeof(double));
-	if (!s->normals || !s->normal_error || !k.x) {
+	if (!s->normals || !s->normal_error || !s->factors || !k.x) {
 		free(k.x);
 		return ST_RESOURCE;
 	}
@@ -316,7 +321,12 @@ bool level_smooth_at(const struct level_surface *s, int d, int line, int along, 
 	patches_at(s, d, line, along, patch);
 	struct side a = side_of(s->normals + level_normals_size(s) * patch[0], s->degree, d, true);
 	struct side b = side_of(s->normals + level_normals_size(s) * patch[1], s->degree, d, false);
-	return smooth_at(&a, &b, at);
+	bool smooth = smooth_at(&a, &b, at);
+	/* for want of memory it is one */
+	if (smooth && s->kind == LEVEL_CURVATURE &&
+	    level_curvature_agrees(s, patch, d, &at, 1, &smooth) != ST_OK)
+		return false;
+	return smooth;
 }
 
 static enum edge_kind edge_between(struct level_surface *s, int lower, int upper, int d)
@@ -418,11 +428,26 @@ static bool ends_meet(const struct level_surface *s, int d)
 	return true;
 }
 
+/* Curvatures may jump where normals do not. */
+static enum status edge_curved(const struct level_surface *s, const int patch[2], int d,
+                               enum edge_kind *kind)
+{
+	double at[EDGE_SAMPLES];
+	bool agrees;
+	if (s->kind != LEVEL_CURVATURE || (*kind != EDGE_SHARED && *kind != EDGE_SMOOTH))
+		return ST_OK;
+	for (int i = 0; i < EDGE_SAMPLES; i++)
+		at[i] = (i + 0.5) / EDGE_SAMPLES;
+	enum status st = level_curvature_agrees(s, patch, d, at, EDGE_SAMPLES, &agrees);
+	*kind = agrees ? EDGE_SMOOTH : EDGE_CREASE;
+	return st;
+}
+
 /*
  * Say what every edge is, and make shared sides equal: first over all lines of u, then of v, each
  * from the lower patch to the upper, so that all patches round a corner have the same number there.
  */
-void level_edges(struct level_surface *s)
+enum status level_edges(struct level_surface *s)
 {
 	const struct bezier_net *net = &s->net;
 	for (int d = 0; d < 2; d++) {
@@ -436,10 +461,15 @@ void level_edges(struct level_surface *s)
 				enum edge_kind k = inside ? edge_between(s, patch[0], patch[1], d)
 				                   : line == 0 ? edge_outside(s, patch[1], d, false)
 				                               : edge_outside(s, patch[0], d, true);
+				enum status st = inside ? edge_curved(s, patch, d, &k) : ST_OK;
+				if (st != ST_OK)
+					return st;
 				size_t at = d == 0 ? level_edge(s, 0, line, a)
 				                   : level_edge(s, 1, a, line);
 				s->edges[d][at] = k;
-				s->bent[d][at] = !inside || edge_bent(s, patch[0], patch[1], d);
+				s->bent[d][at] = !inside || s->kind == LEVEL_CURVATURE ||
+				                 edge_bent(s, patch[0], patch[1], d);
 			}
 	}
+	return ST_OK;
 }

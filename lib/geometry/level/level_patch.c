@@ -264,10 +264,11 @@ enum status level_patch(const struct level *l, size_t patch, struct text *out)
 	if (s->normals)
 		t.normals = s->normals + level_normals_size(s) * patch;
 	if (l->side)
-		t.n_side = (size_t)(l->degree[0] / 2 + 1) * (l->degree[1] / 2 + 1);
+		t.n_side = (size_t)(l->side_degree[0] + 1) * (l->side_degree[1] + 1);
 	t.field = level_room(&t, t.n_field);
-	t.product =
-	        level_room(&t, level_shapes[s->kind].several ? level_kind_room(l) : t.n_side + 1);
+	t.product = level_room(&t, s->kind == LEVEL_CURVATURE      ? level_curvature_room(l)
+	                           : level_shapes[s->kind].several ? level_kind_room(l)
+	                                                           : t.n_side + 1);
 	double *c = level_room(&t, t.n_field + t.n_side);
 	if (!t.failed && level_field_make(&t, c))
 		level_search(&t, c);

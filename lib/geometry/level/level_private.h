@@ -50,10 +50,24 @@ struct proof_tables {
 	double t[PROOF_NODES], h[PROOF_NODES / 4][4][4], cosine[PROOF_NODES][PROOF_NODES / 2];
 };
 
+/* The degree of the polynomial that stands for the normal's length, if the normal's is not higher. */
+enum { ROOT_DEGREE = 16, ROOT_DEGREE_MAX = NORMAL_DEGREE_MAX };
+
+/* Chebyshev's nodes, and what takes values in them to Chebyshev and to Bernstein coefficients. [node] */
+struct root_tables {
+	int degree;
+	double node[ROOT_DEGREE_MAX + 1];
+	double basis[2][ROOT_DEGREE_MAX + 1]
+	            [NORMAL_DEGREE_MAX + 1]; /* of the normals, in the nodes */
+	double chebyshev[ROOT_DEGREE_MAX + 1][ROOT_DEGREE_MAX + 1];
+	double bernstein[ROOT_DEGREE_MAX + 1][ROOT_DEGREE_MAX + 1];
+};
+
 /* What does not depend on the value: net, normals, edges. */
 struct level_surface {
 	struct bezier_net net;
 	enum level_kind kind;
+	enum quantity quantity;          /* LEVEL_CURVATURE */
 	double frame[3][3];              /* rows: right-handed, the last along the direction */
 	double point[3], eye[3], gap[3]; /* of the field, in `frame`; gap: point - eye */
 	int degree[2];                   /* of the normals' components */
@@ -64,6 +78,9 @@ struct level_surface {
 	double reach, weight; /* largest |w S| and w of the control points */
 	double extent[3];     /* largest |w x|, |w y|, |w z| of the control points */
 	struct bound of_points, of_weights; /* any component of w S; w */
+	unsigned char *factors;     /* owned; four a patch: how often a factor was taken out of the
+	                               normals on side 2 d + upper */
+	struct root_tables *root;   /* owned; NULL where not needed */
 	double *normal_error;       /* owned; one a patch: of each component's coefficients */
 	struct patch_shape *shapes; /* owned; one a patch */
 	struct proof_tables proof;
@@ -78,6 +95,7 @@ struct level {
 	double value, sine;  /* isophote: cosine and sine of the angle */
 	bool side;     /* f is a difference of squares, and a condition tells which root is meant */
 	int degree[2]; /* of f */
+	int side_degree[2]; /* of the side condition */
 	double tolerance;
 };
 
@@ -110,7 +128,7 @@ struct level_shape {
 	unsigned char normal[2], point[2]; /* [value is not 0] */
 	bool line, valued;                 /* has a direction; a value */
 	bool side;                         /* has a side condition where the value is not 0 */
-	bool several;                      /* is made in level_kind.c */
+	bool several;                      /* is made in level_kind.c or level_curvature.c */
 };
 extern const struct level_shape level_shapes[N_LEVEL_KINDS];
 
@@ -134,7 +152,7 @@ static inline const double *binomial_row(const double *triangle, int n)
 
 /* level_normal.c */
 enum status level_normals(struct level_surface *s);
-void level_edges(struct level_surface *s);
+enum status level_edges(struct level_surface *s); /* Errors: ST_RESOURCE */
 
 /* The normals on both sides of edge (d, line, along), at `at` on it, make no crease there. */
 bool level_smooth_at(const struct level_surface *s, int d, int line, int along, double at);
@@ -221,6 +239,30 @@ void level_field_at(const struct tracer *t, double u, double v, struct field_poi
 bool level_kind_make(struct tracer *t, double *out);
 void level_kind_at(const struct level *l, const struct field_jets *j, struct field_point *out);
 size_t level_kind_room(const struct level *l);
+
+/* level_curvature.c: the degrees of f and of the side condition; f on a patch. */
+void level_curvature_degree(struct level *l);
+bool level_curvature_make(struct tracer *t, double *out);
+size_t level_curvature_room(const struct level *l);
+
+/* Gaussian and mean curvature agree on both sides of the edge between two patches, at n places on it.
+ * Errors: ST_RESOURCE. */
+enum status level_curvature_agrees(const struct level_surface *s, const int patch[2], int d,
+                                   const double *at, int n, bool *agrees);
+
+/* level_net.c: degree 1 to 2 in direction d; halve these spans of it. Errors: ST_RESOURCE. */
+enum status level_net_raise(struct bezier_net *net, int d);
+enum status level_net_halve(struct bezier_net *net, int d, const bool *spans);
+
+/* level_root.c */
+void level_root_tables(struct root_tables *x, const int degree[2], const double *binomial);
+
+/* Halve spans until the polynomials for the normal's length should be right to `share` of it. The normals
+ * are those of the net, before and after. Errors: ST_RESOURCE. */
+enum status level_root_refine(struct level_surface *s, double share);
+
+/* level_cell.c: nothing is known of the whole patch; `flat`: it has no normals. */
+void level_patch_undecided(struct tracer *t, bool flat);
 
 /* level_patch.c: n doubles, from the room or fresh; NULL: t->failed. */
 double *level_room(struct tracer *t, size_t n);

@@ -1,0 +1,341 @@
+/* level_curvature.c - lines of constant curvature: f from the forms of both fundamental forms.
+ *
+ * With X = (P, w), A = w Pu - wu P, B = w Pv - wv P (Pu and Pv where w = 1), Duu = w Puu - wuu P and so
+ * on, N as everywhere: l = Duu . N, m = Duv . N, n = Dvv . N, and
+ *   k = l n - m^2                     K = k w^2 / |N|^4
+ *   h = A.A n - 2 A.B m + B.B l       H = h / 2 |N|^3
+ *   normal curvature in u             l w^2 / (A.A |N|)
+ * so that the fields are, s being |N| (level_root.c):
+ *   Gaussian   k w^2 - c N.N^2
+ *   mean       h - 2 c N.N s
+ *   principal  c^2 N.N^2 + k w^2 - c h s, and 2 c N.N s - h >= 0 for kmax, <= 0 for kmin
+ *   normal     l w^2 - c A.A s
+ * Where N has lost a factor p at a pole (level_normal.c) l, m, n, k, h are made of the N that is left, and k and
+ * h have another p^2 to lose: there a surface has curvatures only if they do have it.
+ * Source: do Carmo, Differential Geometry of Curves and Surfaces (1976), section 3.3.
+ */
+#include "level_term.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "curvature.h"
+
+/* Relative to the larger curvature: what jumps by less over a line is continuous there. */
+#define JUMP_SHARE 1e-6
+
+/* No more forms, none of higher degree than f, are needed. */
+enum { FORMS_MAX = 80 };
+
+enum { DU, DV, DUU, DUV, DVV, N_DERIVATIVES };
+
+static int most(int a, int b)
+{
+	return a > b ? a : b;
+}
+
+void level_curvature_degree(struct level *l)
+{
+	const struct level_surface *s = l->surface;
+	for (int d = 0; d < 2; d++) {
+		const int p = s->net.order[d] - 1, extra = s->net.rational ? p : 0;
+		const int m = s->degree[d], root = s->root ? s->root->degree : 0;
+		const int square = p - 1 + extra, h = 3 * p - 2 + 3 * extra + m;
+		const int second = p + extra + m; /* of l, m, n: at most */
+		l->side_degree[d] = most(2 * m + root, h);
+		switch (s->quantity) {
+		case QUANTITY_GAUSSIAN:
+			l->degree[d] = 4 * m;
+			break;
+		case QUANTITY_MEAN:
+			l->degree[d] = l->side_degree[d];
+			break;
+		case QUANTITY_KMAX:
+		case QUANTITY_KMIN:
+			l->degree[d] = most(4 * m, h + root);
+			break;
+		default:
+			l->degree[d] = most(second + 2 * p, 2 * (square + 1) + root);
+		}
+	}
+}
+
+size_t level_curvature_room(const struct level *l)
+{
+	int m = most(l->degree[0], l->side_degree[0]), n = most(l->degree[1], l->side_degree[1]);
+	for (int k = 0; l->surface->root && k < 2; k++) {
+		m = most(m, 2 * l->surface->root->degree);
+		n = most(n, 2 * l->surface->root->degree);
+	}
+	return FORMS_MAX * form_count(m, n);
+}
+
+/* What the forms of a patch are made of, in the frame, from its first point. */
+struct parts {
+	struct form x[4], d[N_DERIVATIVES][3], n[3];
+};
+
+/* The derivative of a form, both scaled, by the parameter that runs over [0, 1] on the surface. */
+static struct form derivative(struct tracer *t, struct form x, int d)
+{
+	const struct bezier_net *net = &t->level->surface->net;
+	const double *binomial = t->level->surface->binomial, *b = net->breaks[d];
+	const int degree = d == 0 ? x.m : x.n, i0 = t->place[d];
+	const double by = degree * (b[net->spans[d]] - b[0]) / (b[i0 + 1] - b[i0]);
+	struct form out = form_new(t, x.m - (d == 0), x.n - (d == 1));
+	struct form plain = form_new(t, x.m, x.n);
+	memcpy(plain.c, x.c, sizeof *x.c * form_count(x.m, x.n));
+	form_scale(plain.c, x.m, x.n, binomial, true);
+	const size_t step = d == 0 ? (size_t)x.n + 1 : 1;
+	for (int i = 0; i <= out.m; i++)
+		for (int j = 0; j <= out.n; j++) {
+			const double *c = plain.c + (size_t)i * (x.n + 1) + j;
+			out.c[(size_t)i * (out.n + 1) + j] = by * (c[step] - c[0]);
+		}
+	out.b.size = form_most(out.c, form_count(out.m, out.n));
+	out.b.error = 2 * by * x.b.error + 16 * UNIT_ROUNDOFF * (out.b.size + by * x.b.size);
+	form_scale(out.c, out.m, out.n, binomial, false);
+	return out;
+}
+
+/* w Xd - wd X; Xd where w is 1. */
+static void quotient(struct tracer *t, const struct form x[4], const struct form d[4],
+                     struct form out[3])
+{
+	for (int k = 0; k < 3; k++) {
+		if (!t->level->surface->net.rational) {
+			out[k] = d[k];
+			continue;
+		}
+		out[k] = form_new(t, d[k].m + x[3].m, d[k].n + x[3].n);
+		form_add_product(&out[k], d[k], x[3], 1);
+		form_add_product(&out[k], d[3], x[k], -1);
+		form_tighten(t, &out[k]);
+	}
+}
+
+static void parts_make(struct tracer *t, struct parts *p)
+{
+	const struct level_surface *s = t->level->surface;
+	struct form d[N_DERIVATIVES][4];
+	double from[3];
+	for (int k = 0; k < 3; k++)
+		from[k] = vec3_dot(vec3_of(s->frame[k]), vec3_of(t->points)) / t->points[3];
+	form_points(t, from, p->x);
+	for (int k = 0; k < 4; k++) {
+		d[DU][k] = derivative(t, p->x[k], 0);
+		d[DV][k] = derivative(t, p->x[k], 1);
+		d[DUU][k] = derivative(t, d[DU][k], 0);
+		d[DUV][k] = derivative(t, d[DU][k], 1);
+		d[DVV][k] = derivative(t, d[DV][k], 1);
+	}
+	for (int i = 0; i < N_DERIVATIVES; i++)
+		quotient(t, p->x, d[i], p->d[i]);
+	for (int k = 0; k < 3; k++)
+		p->n[k] = form_normal(t, k);
+}
+
+static struct form dot(struct tracer *t, const struct form a[3], const struct form b[3])
+{
+	struct form out = form_new(t, a[0].m + b[0].m, a[0].n + b[0].n);
+	for (int k = 0; k < 3; k++)
+		form_add_product(&out, a[k], b[k], 1);
+	form_tighten(t, &out);
+	return out;
+}
+
+static struct form product(struct tracer *t, struct form a, struct form b)
+{
+	struct form out = form_new(t, a.m + b.m, a.n + b.n);
+	form_add_product(&out, a, b, 1);
+	form_tighten(t, &out);
+	return out;
+}
+
+/* The form is zero on a side of the patch, up to rounding. */
+static bool side_zero(const struct tracer *t, const struct form *f, int d, bool upper)
+{
+	const double *binomial = t->level->surface->binomial;
+	const double *bm = binomial_row(binomial, f->m), *bn = binomial_row(binomial, f->n);
+	const int count = d == 0 ? f->n : f->m, at = !upper ? 0 : d == 0 ? f->m : f->n;
+	for (int k = 0; k <= count; k++) {
+		const int i = d == 0 ? at : k, j = d == 0 ? k : at;
+		if (fabs(f->c[(size_t)i * (f->n + 1) + j]) / (bm[i] * bn[j]) >
+		    larger(ZERO_SHARE * f->b.size, f->b.error))
+			return false;
+	}
+	return true;
+}
+
+/* Take out the square of the factors that the normal has lost; false where it is not there. */
+static bool factors_out(struct tracer *t, struct form *f)
+{
+	const unsigned char *factors = t->level->surface->factors + (size_t)4 * t->patch;
+	for (int side = 0; side < 4; side++)
+		for (int k = 0; k < 2 * factors[side]; k++) {
+			const int d = side / 2, upper = side % 2;
+			if (!side_zero(t, f, d, upper))
+				return false;
+			form_divide(f->c, f->m, f->n, d, upper);
+			f->b.error *= (d == 0 ? f->m : f->n) + 1;
+			form_tighten(t, f);
+		}
+	return true;
+}
+
+static bool gauss_form(struct tracer *t, const struct parts *p, struct form *k)
+{
+	const struct form l = dot(t, p->d[DUU], p->n), m = dot(t, p->d[DUV], p->n),
+	                  n = dot(t, p->d[DVV], p->n);
+	*k = form_new(t, 2 * m.m, 2 * m.n);
+	form_add_product(k, l, n, 1);
+	form_add_square(k, m, -1);
+	form_tighten(t, k);
+	if (!factors_out(t, k))
+		return false;
+	if (t->level->surface->net.rational)
+		*k = product(t, *k, product(t, p->x[3], p->x[3]));
+	return true;
+}
+
+static bool mean_form(struct tracer *t, const struct parts *p, struct form *h)
+{
+	const struct form l = dot(t, p->d[DUU], p->n), m = dot(t, p->d[DUV], p->n),
+	                  n = dot(t, p->d[DVV], p->n);
+	const struct form e = dot(t, p->d[DU], p->d[DU]), f = dot(t, p->d[DU], p->d[DV]),
+	                  g = dot(t, p->d[DV], p->d[DV]);
+	*h = form_new(t, f.m + m.m, f.n + m.n);
+	form_add_product(h, e, n, 1);
+	form_add_product(h, f, m, -2);
+	form_add_product(h, g, l, 1);
+	form_tighten(t, h);
+	return factors_out(t, h);
+}
+
+/* weight (2 c N.N s - h), whose sign tells kmax from kmin. */
+static void beside_mean(struct tracer *t, struct form *out, struct form square, struct form root,
+                        struct form h, double weight)
+{
+	form_add(t, out, product(t, square, root), 2 * t->level->value * weight);
+	form_add(t, out, h, -weight);
+}
+
+static bool normal_make(struct tracer *t, const struct parts *p, struct form root, struct form *f)
+{
+	const bool u = t->level->surface->quantity == QUANTITY_NORMAL_U;
+	const struct form *along = p->d[u ? DU : DV];
+	struct form second = dot(t, p->d[u ? DUU : DVV], p->n);
+	if (t->level->surface->net.rational)
+		second = product(t, second, product(t, p->x[3], p->x[3]));
+	form_add(t, f, second, 1);
+	form_add(t, f, product(t, dot(t, along, along), root), -t->level->value);
+	return true;
+}
+
+static bool field_make(struct tracer *t, struct form *f, struct form *side)
+{
+	const struct level *l = t->level;
+	const enum quantity quantity = l->surface->quantity;
+	const double c = l->value;
+	struct parts p;
+	struct form k, h, root;
+	parts_make(t, &p);
+	const struct form square = dot(t, p.n, p.n);
+	if (quantity == QUANTITY_GAUSSIAN) {
+		if (!gauss_form(t, &p, &k))
+			return false;
+		form_add(t, f, k, 1);
+		form_add_square(f, square, -c);
+		return true;
+	}
+	if (!level_root_form(t, &square, &root))
+		return false;
+	if (quantity == QUANTITY_NORMAL_U || quantity == QUANTITY_NORMAL_V)
+		return normal_make(t, &p, root, f);
+	if (!mean_form(t, &p, &h))
+		return false;
+	if (quantity == QUANTITY_MEAN) {
+		beside_mean(t, f, square, root, h, -1);
+		return true;
+	}
+	if (!gauss_form(t, &p, &k))
+		return false;
+	form_add(t, f, product(t, square, square), c * c);
+	form_add(t, f, k, 1);
+	form_add(t, f, product(t, h, root), -c);
+	beside_mean(t, side, square, root, h, quantity == QUANTITY_KMAX ? 1 : -1);
+	return true;
+}
+
+bool level_curvature_make(struct tracer *t, double *out)
+{
+	const struct level *l = t->level;
+	const double *binomial = l->surface->binomial;
+	struct form f = { out, l->degree[0], l->degree[1], { 0, 0 } };
+	struct form side = { out + t->n_field, l->side_degree[0], l->side_degree[1], { 0, 0 } };
+	if (form_most(t->normals, level_normals_size(l->surface)) == 0) {
+		level_patch_undecided(t, true);
+		return false;
+	}
+	memset(out, 0, sizeof *out * (t->n_field + t->n_side));
+	t->n_product = 0;
+	if (!field_make(t, &f, &side)) {
+		level_patch_undecided(t, false);
+		return false;
+	}
+	form_scale(f.c, f.m, f.n, binomial, true);
+	if (t->n_side)
+		form_scale(side.c, side.m, side.n, binomial, true);
+	t->bound = f.b;
+	t->side_error = side.b.error;
+	t->own_field = true;
+	return true;
+}
+
+/* A patch as a surface of its own over [0, 1]. */
+static enum status patch_surface(const struct level_surface *s, int patch, struct surface *out)
+{
+	const struct bezier_net *net = &s->net;
+	enum status st = surface_init(out, net->order, net->order);
+	if (st != ST_OK)
+		return st;
+	memcpy(out->points, net->points + bezier_patch_size(net) * patch,
+	       sizeof(double) * bezier_patch_size(net));
+	for (int d = 0; d < 2; d++)
+		for (int i = 0; i < 2 * net->order[d]; i++)
+			out->knots[d][i] = i >= net->order[d];
+	return surface_check(out, "patch", NULL);
+}
+
+static bool near(double a, double b, double scale)
+{
+	return fabs(a - b) <= JUMP_SHARE * scale;
+}
+
+enum status level_curvature_agrees(const struct level_surface *s, const int patch[2], int d,
+                                   const double *at, int n, bool *agrees)
+{
+	struct surface side[2] = { { .n = { 0, 0 } }, { .n = { 0, 0 } } };
+	enum status st = patch_surface(s, patch[0], &side[0]);
+	if (st == ST_OK)
+		st = patch_surface(s, patch[1], &side[1]);
+	*agrees = st == ST_OK;
+	for (int i = 0; i < n && *agrees; i++) {
+		struct surface_shape x[2];
+		for (int k = 0; k < 2; k++) {
+			double uv[2] = { at[i], at[i] };
+			uv[d] = k == 0 ? 1 : 0;
+			surface_shape(&side[k], uv[0], uv[1], &x[k]);
+		}
+		const double *a = x[0].value, *b = x[1].value;
+		const double most = a[QUANTITY_ABSOLUTE] + b[QUANTITY_ABSOLUTE] + 1 / s->net.size;
+		/* where both have none, nothing jumps */
+		if (isnan(most))
+			continue;
+		*agrees = near(a[QUANTITY_GAUSSIAN], b[QUANTITY_GAUSSIAN], most * most) &&
+		          near(a[QUANTITY_MEAN], b[QUANTITY_MEAN], most);
+	}
+	surface_finish(&side[0]);
+	surface_finish(&side[1]);
+	return st;
+}

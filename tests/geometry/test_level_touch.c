@@ -1,0 +1,149 @@
+/* test_level_touch.c - levels that are only touched, cross themselves, or cover an area. */
+#include "level_check.h"
+
+static const struct {
+	const char *name;
+	struct surface (*make)(void);
+	enum level_kind kind;
+	struct vec3 direction;
+	double degrees;
+	size_t undecided;
+	bool flat;
+	enum level_mark mark; /* N_LEVEL_MARKS: point or region, as the pole's rounding has it */
+} touches[] = {
+	{ "a plateau", flat, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, true, LEVEL_REGION },
+	{ "a plateau, slanting",
+	  flat,
+	  LEVEL_ISOPHOTE,
+	  { 0, 0.6, 0.8 },
+	  36.869897645844021,
+	  1,
+	  true,
+	  LEVEL_REGION },
+	{ "a plane in the plane", flat, LEVEL_PLANE, { 0, 0, 1 }, 1, 1, true, LEVEL_REGION },
+	{ "a point of a sphere",
+	  sphere,
+	  LEVEL_ISOPHOTE,
+	  { 0.3, 0.4, 0.8 },
+	  0,
+	  1,
+	  false,
+	  LEVEL_POINT },
+	{ "its pole", sphere, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, false, N_LEVEL_MARKS },
+	{ "the other pole", sphere, LEVEL_ISOPHOTE, { 0, 0, 1 }, 180, 1, false, N_LEVEL_MARKS },
+	{ "the top of a torus", torus, LEVEL_ISOPHOTE, { 0, 0, 1 }, 0, 1, false, LEVEL_REGION },
+	{ "a line of a cylinder",
+	  cylinder,
+	  LEVEL_ISOPHOTE,
+	  { 0.6, 0.8, 0 },
+	  0,
+	  1,
+	  false,
+	  LEVEL_REGION },
+	{ "a plane on a torus", torus, LEVEL_PLANE, { 0, 0, 1 }, 1, 1, false, LEVEL_REGION },
+	{ "a plane on a sphere", sphere, LEVEL_PLANE, { 0, 0.6, 0.8 }, 2.5, 1, false, LEVEL_POINT },
+};
+
+/* What the level only touches is told as one box, without a curve. */
+static void test_touch(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < sizeof touches / sizeof *touches; i++) {
+		struct surface s = touches[i].make();
+		struct level_result x;
+		double value = touches[i].kind == LEVEL_PLANE ? touches[i].degrees
+		                                              : cosine(touches[i].degrees);
+		assert_int_equal(shape_trace(&s, touches[i].kind, touches[i].direction, value, 1e-5,
+		                             &x, NULL),
+		                 ST_OK);
+		if (x.n_undecided != touches[i].undecided || x.n_branches != 0)
+			print_error("%s: %zu undecided, %zu pieces\n", touches[i].name,
+			            x.n_undecided, x.n_branches);
+		assert_int_equal(x.n_branches, 0);
+		assert_int_equal(x.n_undecided, touches[i].undecided);
+		assert_true(!touches[i].flat || x.undecided[0].flat);
+		enum level_mark kind = x.undecided[0].kind;
+		if (touches[i].mark == N_LEVEL_MARKS)
+			assert_true(kind == LEVEL_POINT || kind == LEVEL_REGION);
+		else
+			assert_int_equal(kind, touches[i].mark);
+		assert_int_equal(x.undecided[0].ends, 0);
+		level_result_finish(&x);
+		surface_finish(&s);
+	}
+}
+
+/* A surface that is only a line has no normal, and nothing is known of it. */
+static void test_no_area(void **state)
+{
+	(void)state;
+	for (int rational = 0; rational < 2; rational++) {
+		struct surface s = shape_surface((const int[2]){ 4, 4 }, (const int[2]){ 8, 8 },
+		                                 rational, KNOTS_CLAMPED, 3);
+		struct level_result x;
+		for (int i = 0; i < 8; i++)
+			for (int j = 0; j < 8; j++) {
+				double w, t;
+				t = surface_get_point(&s, i, j, &w).z;
+				surface_set_point(&s, i, j, vec3(0.37 * t, 1.21 * t, 0.777 * t), w);
+			}
+		assert_int_equal(
+		        shape_trace(&s, LEVEL_ISOPHOTE, vec3(0, 0, 1), 0.5, 1e-5, &x, NULL), ST_OK);
+		assert_int_equal(x.n_branches, 0);
+		assert_int_equal(x.n_undecided, 1);
+		assert_true(x.undecided[0].flat);
+		level_result_finish(&x);
+		surface_finish(&s);
+	}
+}
+
+/* Where curves cross, the crossing is told and the curves end there. */
+static void test_crossing(void **state)
+{
+	(void)state;
+	struct surface s = torus();
+	struct level_result x;
+	assert_int_equal(shape_trace(&s, LEVEL_ISOPHOTE, vec3(1, 0, 0), 0, 1e-5, &x, NULL), ST_OK);
+	/* u = 90, 270 degrees cross v = 90, 270 degrees: on the corners of patches */
+	assert_true(fabs(x.length - (2 * 2 * pi + 2 * 2 * pi * 3)) < 1e-3);
+	level_result_finish(&x);
+	surface_finish(&s);
+	s = wavy();
+	assert_int_equal(shape_trace(&s, LEVEL_PLANE, vec3(0, 0, 1), 0, 1e-5, &x, NULL), ST_OK);
+	/* seven lines each way, the border's four among them */
+	int found[5] = { 0 };
+	assert_int_equal(x.n_branches, 2 * 7 * 6);
+	assert_int_equal(x.n_undecided, 49);
+	for (size_t i = 0; i < x.n_undecided; i++) {
+		const struct level_box *b = &x.undecided[i];
+		assert_int_equal(b->kind, LEVEL_CROSSING);
+		assert_in_range(b->ends, 2, 4);
+		found[b->ends]++;
+	}
+	assert_int_equal(found[4], 25);
+	assert_int_equal(found[3], 20);
+	assert_int_equal(found[2], 4);
+	/* branches of a crossing end in one point */
+	for (size_t b = 0; b < x.n_branches; b++)
+		for (int e = 0; e < 2; e++) {
+			const struct curve *c = &x.branches[b].uv;
+			struct vec3 p = curve_get_point(c, e ? c->n - 1 : 0, NULL);
+			assert_in_range(x.branches[b].mark[e], 0, 48);
+			const struct level_box *m = &x.undecided[x.branches[b].mark[e]];
+			assert_true(p.x == 0.5 * (m->lo[0] + m->hi[0]));
+			assert_true(p.y == 0.5 * (m->lo[1] + m->hi[1]));
+		}
+	assert_true(x.max_error <= 1e-5);
+	level_result_finish(&x);
+	surface_finish(&s);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_touch),
+		cmocka_unit_test(test_no_area),
+		cmocka_unit_test(test_crossing),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
