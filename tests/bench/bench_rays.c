@@ -298,9 +298,8 @@ static size_t scene_singles(const struct ray_scene *s, const struct view *v, flo
 			struct ray r = { v->eye, view_direction(v, x, y), 0, INFINITY };
 			struct ray_hit h;
 			float *pixel = &image[(size_t)y * SIZE + x];
-			bool blocked;
 
-			ray_scene_hits(s, &r, 1, false, &h);
+			ray_scene_hit(s, &r, &h);
 			*pixel = h.surface >= 0 ? 0.1f : 0;
 			if (h.surface < 0)
 				continue;
@@ -310,9 +309,8 @@ static size_t scene_singles(const struct ray_scene *s, const struct view *v, flo
 			if (slope <= 0)
 				continue;
 			r = (struct ray){ h.point, v->light, 1e-4 * v->size, INFINITY };
-			ray_scene_blocked(s, &r, 1, &blocked);
 			rays++;
-			if (!blocked)
+			if (!ray_scene_is_blocked(s, &r))
 				*pixel += 0.9f * (float)slope;
 		}
 	return rays;

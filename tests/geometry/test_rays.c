@@ -386,6 +386,51 @@ static void grouping_does_not_matter(void **state)
 	free(blocked);
 }
 
+/* A ray by itself finds what it finds in a group, of every kind of surface, from without and within. */
+static void one_ray_finds_the_same(void **state)
+{
+	struct surface s[] = {
+		shape_torus(1, 0.4), shape_sphere(0.7),
+		shape_surface((int[2]){ 4, 3 }, (int[2]){ 6, 5 }, true, KNOTS_UNEVEN, 3),
+		shape_surface((int[2]){ 6, 4 }, (int[2]){ 7, 4 }, false, KNOTS_CLAMPED, 4)
+	};
+	enum { N_SHAPES = sizeof s / sizeof *s };
+	const struct surface *all[N_SHAPES] = { &s[0], &s[1], &s[2], &s[3] };
+	struct ray_scene *scene;
+	uint64_t seed = 7;
+	int n_hits = 0;
+
+	(void)state;
+	assert_int_equal(ray_scene_create(&scene, all, N_SHAPES, 0, NULL), ST_OK);
+	for (int i = 0; i < RAYS; i++) {
+		struct ray r = random_ray(vec3(0, 0, 0), 1.5, &seed);
+		struct ray_hit group = trace_one(scene, r), one;
+		bool blocked;
+
+		if (i % 2 && group.surface >= 0) { /* from within */
+			r.origin = vec3_along(r.origin, group.t + 1e-4, r.direction);
+			group = trace_one(scene, r);
+		}
+		ray_scene_hit(scene, &r, &one);
+		assert_int_equal(one.surface, group.surface);
+		ray_scene_blocked(scene, &r, 1, &blocked);
+		assert_int_equal(blocked, one.surface >= 0);
+		assert_int_equal(ray_scene_is_blocked(scene, &r), blocked);
+		if (one.surface < 0)
+			continue;
+		n_hits++;
+		/* along a surface that it touches a ray may find itself a little further on */
+		double lean = fabs(vec3_dot(one.normal, r.direction));
+		assert_true(fabs(one.t - group.t) <= 1e-11 / fmax(lean, 1e-4));
+		assert_true(vec3_length(vec3_sub(one.point, group.point)) <=
+		            1e-11 / fmax(lean, 1e-4));
+	}
+	assert_true(n_hits > RAYS / 4);
+	ray_scene_destroy(scene);
+	for (int k = 0; k < N_SHAPES; k++)
+		surface_finish(&s[k]);
+}
+
 /* Rays that leave a surface do not meet it where they start, and meet all else. */
 static void near_and_far(void **state)
 {
@@ -481,6 +526,7 @@ int main(void)
 		cmocka_unit_test(collapsed_side),
 		cmocka_unit_test(part_of_the_domain),
 		cmocka_unit_test(grouping_does_not_matter),
+		cmocka_unit_test(one_ray_finds_the_same),
 		cmocka_unit_test(near_and_far),
 		cmocka_unit_test(ties_go_to_the_first),
 		cmocka_unit_test(what_cannot_be_seen),

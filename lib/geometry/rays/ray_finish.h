@@ -181,30 +181,33 @@ INLINE vl finish_newton(const struct ray_patch *patch, const struct finish_rays 
 	       (*pb <= 1 + BORDER);
 }
 
+/* Does the trim take the place (a, b) of a patch, found by leaf l? */
+static bool trim_takes(const struct trim_test *trim, const struct ray_leaf *l,
+                       const struct ray_patch *patch, double a, double b)
+{
+	double at[2] = { fmin(fmax(a, 0), 1), fmin(fmax(b, 0), 1) };
+	bool beside = l->trim == TRIM_THROUGH;
+
+	for (int d = 0; d < 2; d++) {
+		double from = (double)l->from[d], step = (double)l->step[d];
+
+		beside |= at[d] < from - TRIM_BESIDE * step ||
+		          at[d] > from + (1 + TRIM_BESIDE) * step;
+	}
+	return beside && !trim_test_inside(trim, (1 - at[0]) * patch->u[0] + at[0] * patch->u[1],
+	                                   (1 - at[1]) * patch->v[0] + at[1] * patch->v[1]);
+}
+
 /* Of the lanes `ok` those whose place (a, b) in the patch the trim leaves. */
 static __attribute__((noinline)) vl finish_trim(const struct packet *p, const struct ray_leaf *l,
                                                 vl ok, vd a, vd b)
 {
-	const struct ray_patch *patch = &p->scene->cut.patches[l->patch];
-	const struct trim_test *trim = p->scene->cut.trims[patch->surface];
+	const struct ray_patch *patch = &p->call.scene->cut.patches[l->patch];
+	const struct trim_test *trim = p->call.scene->cut.trims[patch->surface];
 
-	for (int i = 0; i < HALF; i++) {
-		if (!ok[i])
-			continue;
-		double at[2] = { fmin(fmax(a[i], 0), 1), fmin(fmax(b[i], 0), 1) };
-		bool beside = l->trim == TRIM_THROUGH;
-
-		for (int d = 0; d < 2; d++) {
-			double from = (double)l->from[d], step = (double)l->step[d];
-
-			beside |= at[d] < from - TRIM_BESIDE * step ||
-			          at[d] > from + (1 + TRIM_BESIDE) * step;
-		}
-		if (beside &&
-		    !trim_test_inside(trim, (1 - at[0]) * patch->u[0] + at[0] * patch->u[1],
-		                      (1 - at[1]) * patch->v[0] + at[1] * patch->v[1]))
+	for (int i = 0; i < HALF; i++)
+		if (ok[i] && trim_takes(trim, l, patch, a[i], b[i]))
 			ok[i] = 0;
-	}
 	return ok;
 }
 
@@ -234,8 +237,8 @@ INLINE void finish_keep(struct packet *p, int h, vl ok, vl leaf, vd t, vd a, vd 
  */
 static __attribute__((noinline)) vi finish(struct packet *p, uint32_t number, vf s, vf t, vi found)
 {
-	const struct ray_leaf *l = &p->scene->cut.leaves[number];
-	const struct ray_patch *patch = &p->scene->cut.patches[l->patch];
+	const struct ray_leaf *l = &p->call.scene->cut.leaves[number];
+	const struct ray_patch *patch = &p->call.scene->cut.patches[l->patch];
 	union {
 		vf v;
 		hf half[2];
@@ -279,11 +282,11 @@ static __attribute__((noinline)) vi finish(struct packet *p, uint32_t number, vf
 		if (l->trim != TRIM_NONE && any_half(ok))
 			ok = finish_trim(p, l, ok, a, b);
 		out[h] = ok;
-		if (!p->nearest || !any_half(ok))
+		if (!p->call.nearest || !any_half(ok))
 			continue;
 		finish_keep(p, h, ok, leaf, along, a, b, &x);
 	}
-	if (p->nearest)
+	if (p->call.nearest)
 		p->far = to_float(p->fard) + 2 * RAY_NOISE;
 	return to_mask(out);
 }

@@ -28,6 +28,8 @@ struct ray_kernel {
 	             size_t n, bool coherent, struct ray_hit *hits);
 	void (*blocked)(const struct ray_scene *s, const struct ray *rays, const uint32_t *order,
 	                size_t n, bool *out);
+	void (*hit)(const struct ray_scene *s, const struct ray *r, struct ray_hit *out);
+	bool (*is_blocked)(const struct ray_scene *s, const struct ray *r);
 };
 
 extern const struct ray_kernel ray_kernel_4, ray_kernel_8, ray_kernel_16;

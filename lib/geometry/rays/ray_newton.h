@@ -189,11 +189,20 @@ INLINE vi node_candidates(const struct leaf_call *c, const struct node *n, const
 
 	if (!any(found))
 		return found;
+	vi sure = found & ~found;
+	if (!c->p->call.nearest && c->l->trim != TRIM_THROUGH) {
+		/* well inside in every way: no more digits are needed to say that there is a hit */
+		sure = found & (size(x->s) + x->unsure < 1) & (size(x->t) + x->unsure < 1) &
+		       (along > c->p->near + 2 * margin) & (along < c->p->far - 2 * margin);
+		found &= ~sure;
+		if (!any(found))
+			return sure;
+	}
 	/* where the place is quite unsure, the middle of the node is as good a start */
 	vf limit = fill(1.5f);
 	s = pick(size(s) < limit, s, fill(n->s0));
 	t = pick(size(t) < limit, t, fill(n->t0));
-	return finish(c->p, c->number, s, t, found);
+	return sure | finish(c->p, c->number, s, t, found);
 }
 
 /*
@@ -278,7 +287,7 @@ static __attribute__((noinline)) vi node_trace(const struct leaf_call *c, const 
 	for (int k = 0; k < 4; k++) {
 		float side_s = k & 1 ? 1 : -1, side_t = k & 2 ? 1 : -1;
 
-		if (!c->p->nearest)
+		if (!c->p->call.nearest)
 			open &= ~hit;
 		child.s0 = n->s0 + side_s * child.half;
 		child.t0 = n->t0 + side_t * child.half;
@@ -291,7 +300,7 @@ static __attribute__((noinline)) vi node_trace(const struct leaf_call *c, const 
 
 INLINE vi leaf_trace_(struct packet *p, uint32_t number, vi act, bool rational)
 {
-	const struct ray_leaf *l = &p->scene->cut.leaves[number];
+	const struct ray_leaf *l = &p->call.scene->cut.leaves[number];
 	struct leaf_call c = { .p = p, .l = l, .number = number };
 	vf e1 = dotf(p->n1, l->center, 1) - p->k1, e2 = dotf(p->n2, l->center, 1) - p->k2;
 	vi none = act & ~act;
@@ -342,7 +351,7 @@ INLINE vi leaf_trace_(struct packet *p, uint32_t number, vi act, bool rational)
 
 static vi leaf_trace(struct packet *p, uint32_t number, vi act)
 {
-	if (p->scene->cut.leaves[number].rational)
+	if (p->call.scene->cut.leaves[number].rational)
 		return leaf_trace_(p, number, act, true);
 	return leaf_trace_(p, number, act, false);
 }

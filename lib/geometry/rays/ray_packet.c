@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "curvature.h"
-#include "ray_newton.h"
+#include "ray_single.h"
 
 #if RAY_LANES == 16
 #define RAY_KERNEL ray_kernel_16
@@ -46,11 +46,37 @@ static vi packet_mask(const int *valid, const uint32_t *ray, unsigned n)
 	return act;
 }
 
+static void single_on_leaf(const struct RTCIntersectFunctionNArguments *args)
+{
+	struct single *q = (struct single *)args->context;
+	struct RTCRayHit *ray = (struct RTCRayHit *)args->rayhit;
+
+	if (!args->valid[0] || !single_trace(q, args->primID))
+		return;
+	ray->ray.tfar = q->far;
+	ray->hit.primID = args->primID;
+	ray->hit.geomID = args->geomID;
+	ray->hit.instID[0] = args->context->instID[0];
+}
+
+static void single_on_shade(const struct RTCOccludedFunctionNArguments *args)
+{
+	struct single *q = (struct single *)args->context;
+
+	if (args->valid[0] && single_trace(q, args->primID))
+		((struct RTCRay *)args->ray)->tfar = -INFINITY;
+}
+
 static void packet_on_leaf(const struct RTCIntersectFunctionNArguments *args)
 {
 	struct packet *p = (struct packet *)args->context;
 	unsigned n = args->N;
 	float *ray = (float *)args->rayhit;
+
+	if (p->call.single) {
+		single_on_leaf(args);
+		return;
+	}
 	uint32_t *id = (uint32_t *)args->rayhit, *hit = id + (size_t)RAY_FIELDS * n;
 	vi act = packet_mask(args->valid, id, n);
 	vi ok = leaf_trace(p, args->primID, act);
@@ -74,6 +100,11 @@ static void packet_on_shade(const struct RTCOccludedFunctionNArguments *args)
 	struct packet *p = (struct packet *)args->context;
 	unsigned n = args->N;
 	float *ray = (float *)args->ray;
+
+	if (p->call.single) {
+		single_on_shade(args);
+		return;
+	}
 	const uint32_t *id = (const uint32_t *)args->ray;
 	vi ok = leaf_trace(p, args->primID, packet_mask(args->valid, id, n));
 
@@ -82,93 +113,6 @@ static void packet_on_shade(const struct RTCOccludedFunctionNArguments *args)
 	for (unsigned i = 0; i < n; i++)
 		if (ok[id[RAY_ID * n + i] % LANES])
 			ray[RAY_TFAR * n + i] = -INFINITY;
-}
-
-/* A packet's rays as arrays, in scene units and brought near the scene. */
-struct packet_start {
-	union {
-		double x[LANES];
-		vd v[2];
-	} o[3], d[3], near, far, shift; /* shift: distance the origin was moved along, file units */
-};
-
-/* Lanes beyond n repeat the last ray. */
-static void packet_gather(const struct ray_scene *s, const struct ray *rays, const uint32_t *order,
-                          size_t n, struct packet_start *out)
-{
-	const struct ray_cut *cut = &s->cut;
-	double scale = 1 / cut->scale;
-
-	for (size_t i = 0; i < LANES; i++) {
-		size_t k = i < n ? i : n - 1;
-		const struct ray *r = &rays[order ? order[k] : k];
-
-		out->o[0].x[i] = r->origin.x - cut->center.x;
-		out->o[1].x[i] = r->origin.y - cut->center.y;
-		out->o[2].x[i] = r->origin.z - cut->center.z;
-		out->d[0].x[i] = r->direction.x;
-		out->d[1].x[i] = r->direction.y;
-		out->d[2].x[i] = r->direction.z;
-		out->near.x[i] = r->near;
-		out->far.x[i] = r->far;
-	}
-	for (int h = 0; h < 2; h++) {
-		vd d[3] = { out->d[0].v[h], out->d[1].v[h], out->d[2].v[h] };
-		vd o[3] = { out->o[0].v[h], out->o[1].v[h], out->o[2].v[h] };
-		vd shift = -dotd(o, d) - 1.5 * cut->scale;
-
-		shift = pickd(shift > 0, shift, filld(0));
-		for (int e = 0; e < 3; e++)
-			out->o[e].v[h] = (o[e] + shift * d[e]) * scale;
-		out->near.v[h] = (out->near.v[h] - shift) * scale;
-		out->far.v[h] = (out->far.v[h] - shift) * scale;
-		out->shift.v[h] = shift;
-	}
-}
-
-/*
- * The two planes of each ray. Source: Duff et al., Building an Orthonormal Basis, Revisited
- * (JCGT 2017).
- */
-static void packet_prepare(struct packet *p, const struct ray_scene *s,
-                           const struct packet_start *a, bool coherent, bool nearest)
-{
-	rtcInitIntersectContext(&p->context);
-	p->context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-	                            : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-	p->scene = s;
-	p->nearest = nearest;
-	for (int h = 0; h < 2; h++) {
-		vd x = a->d[0].v[h], y = a->d[1].v[h], z = a->d[2].v[h];
-		vd sign = pickd(z < 0, filld(-1), filld(1));
-		vd k = -1 / (sign + z), xy = x * y * k;
-		vd o[3] = { a->o[0].v[h], a->o[1].v[h], a->o[2].v[h] };
-		vd d[3] = { x, y, z };
-		vd n1[3] = { 1 + sign * x * x * k, sign * xy, -sign * x };
-		vd n2[3] = { xy, sign + y * y * k, -y };
-
-		for (int e = 0; e < 3; e++) {
-			p->dd[e][h] = d[e];
-			p->nd1[e][h] = n1[e];
-			p->nd2[e][h] = n2[e];
-		}
-		p->kd1[h] = dotd(n1, o);
-		p->kd2[h] = dotd(n2, o);
-		p->kdd[h] = dotd(d, o);
-		p->neard[h] = a->near.v[h];
-		p->fard[h] = a->far.v[h];
-		p->leaf[h] = (vl){ 0 } - 1;
-	}
-	for (int e = 0; e < 3; e++) {
-		p->d[e] = to_float(p->dd[e]);
-		p->n1[e] = to_float(p->nd1[e]);
-		p->n2[e] = to_float(p->nd2[e]);
-	}
-	p->k1 = to_float(p->kd1);
-	p->k2 = to_float(p->kd2);
-	p->kd = to_float(p->kdd);
-	p->near = to_float(p->neard) - 2 * RAY_NOISE;
-	p->far = to_float(p->fard) + 2 * RAY_NOISE;
 }
 
 static void packet_ray_set(const struct packet *p, const struct packet_start *a, packet_ray *r)
@@ -194,41 +138,30 @@ static void packet_ray_set(const struct packet *p, const struct packet_start *a,
 	}
 }
 
-static double at_lane(const vd x[2], int lane)
+static void found_hit(const struct ray_scene *s, const struct ray_found *f, double shift,
+                      struct ray_hit *out)
 {
-	return x[lane / HALF][lane % HALF];
-}
+	const struct ray_cut *cut = &s->cut;
 
-static void packet_result(const struct packet *p, const struct packet_start *a, int lane,
-                          struct ray_hit *out)
-{
-	const struct ray_cut *cut = &p->scene->cut;
-	int64_t leaf = p->leaf[lane / HALF][lane % HALF];
-
-	if (leaf < 0) {
+	if (f->leaf < 0) {
 		*out = (struct ray_hit){ .surface = -1, .t = INFINITY };
 		return;
 	}
-	const struct ray_patch *patch = &cut->patches[cut->leaves[leaf].patch];
-	double u = fmin(fmax(at_lane(p->a[0], lane), 0), 1);
-	double v = fmin(fmax(at_lane(p->a[1], lane), 0), 1);
-	struct vec3 point = vec3(at_lane(p->point[0], lane), at_lane(p->point[1], lane),
-	                         at_lane(p->point[2], lane));
-	struct vec3 normal = vec3(at_lane(p->normal[0], lane), at_lane(p->normal[1], lane),
-	                          at_lane(p->normal[2], lane));
+	const struct ray_patch *patch = &cut->patches[cut->leaves[f->leaf].patch];
+	double u = fmin(fmax(f->a, 0), 1), v = fmin(fmax(f->b, 0), 1);
 
 	out->surface = patch->surface;
-	out->t = a->shift.x[lane] + cut->scale * at_lane(p->fard, lane);
+	out->t = shift + cut->scale * f->t;
 	out->u = (1 - u) * patch->u[0] + u * patch->u[1];
 	out->v = (1 - v) * patch->v[0] + v * patch->v[1];
-	out->point = vec3_along(cut->center, cut->scale, point);
-	double length = vec3_length(normal), area = at_lane(p->area, lane);
+	out->point = vec3_along(cut->center, cut->scale, f->point);
+	double length = vec3_length(f->normal);
 	struct vec3 limit;
-	if (!(length * length > 0.0025 * area) &&
-	    surface_normal(p->scene->surfaces[out->surface], out->u, out->v, &limit))
+	if (!(length * length > 0.0025 * f->area) &&
+	    surface_normal(s->surfaces[out->surface], out->u, out->v, &limit))
 		out->normal = limit;
 	else
-		out->normal = vec3_scale(normal, length > 0 ? 1 / length : 0);
+		out->normal = vec3_scale(f->normal, length > 0 ? 1 / length : 0);
 }
 
 static void packet_hits(const struct ray_scene *s, const struct ray *rays, const uint32_t *order,
@@ -251,10 +184,14 @@ static void packet_hits(const struct ray_scene *s, const struct ray *rays, const
 			h.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
 			h.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
 		}
-		packet_intersect(valid, s->tree, &p.context, &h);
-		for (size_t i = 0; i < count; i++)
-			packet_result(&p, &start, (int)i,
-			              &hits[order ? order[first + i] : first + i]);
+		packet_intersect(valid, s->tree, &p.call.context, &h);
+		for (size_t i = 0; i < count; i++) {
+			struct ray_found found;
+
+			packet_found(&p, (int)i, &found);
+			found_hit(s, &found, start.shift.x[i],
+			          &hits[order ? order[first + i] : first + i]);
+		}
 	}
 }
 
@@ -275,10 +212,76 @@ static void packet_blocked(const struct ray_scene *s, const struct ray *rays, co
 		packet_ray_set(&p, &start, &r);
 		for (unsigned i = 0; i < LANES; i++)
 			valid[i] = i < count && start.near.x[i] < start.far.x[i] ? -1 : 0;
-		packet_occluded(valid, s->tree, &p.context, &r);
+		packet_occluded(valid, s->tree, &p.call.context, &r);
 		for (size_t i = 0; i < count; i++)
 			out[order ? order[first + i] : first + i] = r.tfar[i] == -INFINITY;
 	}
+}
+
+/* In scene units and brought near the scene; false where there is nothing between near and far. */
+static bool single_start(struct single *q, const struct ray_scene *s, const struct ray *r,
+                         bool nearest, struct RTCRay *out)
+{
+	const struct ray_cut *cut = &s->cut;
+	struct vec3 o = vec3_sub(r->origin, cut->center), d = r->direction;
+	double shift = fmax(-vec3_dot(o, d) - 1.5 * cut->scale, 0), scale = 1 / cut->scale;
+	struct vec3 n1, n2;
+
+	o = vec3_scale(vec3_along(o, shift, d), scale);
+	ray_planes(d, &n1, &n2);
+	ray_call_init(&q->call, s, nearest, true);
+	const double at[4][3] = {
+		{ o.x, o.y, o.z }, { d.x, d.y, d.z }, { n1.x, n1.y, n1.z }, { n2.x, n2.y, n2.z }
+	};
+	for (int e = 0; e < 3; e++) {
+		q->o[e] = at[0][e];
+		q->d[e] = (float)(q->dd[e] = at[1][e]);
+		q->n1[e] = (float)(q->nd1[e] = at[2][e]);
+		q->n2[e] = (float)(q->nd2[e] = at[3][e]);
+	}
+	q->k1 = (float)(q->kd1 = vec3_dot(n1, o));
+	q->k2 = (float)(q->kd2 = vec3_dot(n2, o));
+	q->kd = (float)(q->kdd = vec3_dot(d, o));
+	q->shift = shift;
+	q->neard = (r->near - shift) * scale;
+	q->found.t = (r->far - shift) * scale;
+	q->found.leaf = -1;
+	q->near = (float)q->neard - 2 * RAY_NOISE;
+	q->far = (float)q->found.t + 2 * RAY_NOISE;
+	*out = (struct RTCRay){
+		.org_x = (float)o.x,
+		.org_y = (float)o.y,
+		.org_z = (float)o.z,
+		.dir_x = q->d[0],
+		.dir_y = q->d[1],
+		.dir_z = q->d[2],
+		.tnear = fmaxf(q->near, 0),
+		.tfar = q->far,
+		.mask = UINT32_MAX,
+	};
+	return r->near < r->far;
+}
+
+static void single_hit(const struct ray_scene *s, const struct ray *r, struct ray_hit *out)
+{
+	struct RTCRayHit h = { .hit = { .geomID = RTC_INVALID_GEOMETRY_ID,
+		                        .instID = { RTC_INVALID_GEOMETRY_ID } } };
+	struct single q;
+
+	if (single_start(&q, s, r, true, &h.ray))
+		rtcIntersect1(s->tree, &q.call.context, &h);
+	found_hit(s, &q.found, q.shift, out);
+}
+
+static bool single_blocked(const struct ray_scene *s, const struct ray *r)
+{
+	struct RTCRay ray;
+	struct single q;
+
+	if (!single_start(&q, s, r, false, &ray))
+		return false;
+	rtcOccluded1(s->tree, &q.call.context, &ray);
+	return ray.tfar == -INFINITY;
 }
 
 const struct ray_kernel RAY_KERNEL = {
@@ -288,4 +291,6 @@ const struct ray_kernel RAY_KERNEL = {
 	.occluded = packet_on_shade,
 	.hits = packet_hits,
 	.blocked = packet_blocked,
+	.hit = single_hit,
+	.is_blocked = single_blocked,
 };

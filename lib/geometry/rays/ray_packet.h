@@ -5,14 +5,28 @@
 #include "ray_kernel.h"
 #include "ray_lanes.h"
 
+/* What Embree hands back to the callbacks: of a packet or of a single ray. */
+struct ray_call {
+	struct RTCIntersectContext context; /* first */
+	const struct ray_scene *scene;
+	bool nearest; /* else any hit will do */
+	bool single;
+};
+
+/* The nearest hit of one ray so far, in scene units. */
+struct ray_found {
+	int64_t leaf;              /* -1: none */
+	double t, a, b;            /* a, b: parameters in the patch [0, 1] */
+	struct vec3 point, normal; /* normal: Su x Sv, not of unit length */
+	double area;               /* |Su|^2 |Sv|^2, a little more */
+};
+
 /*
  * Everything in scene units. A ray is the line where two planes meet: n1 . x = k1, n2 . x = k2.
  * Doubles come as two halves. Results are those of the nearest hit so far.
  */
 struct packet {
-	struct RTCIntersectContext context; /* first: Embree hands it back to the callbacks */
-	const struct ray_scene *scene;
-	bool nearest;                      /* else any hit will do */
+	struct ray_call call;              /* first */
 	vf d[3], n1[3], n2[3], k1, k2, kd; /* kd: d . origin */
 	vf near, far;                      /* a little wider than the true ones */
 	vd dd[3][2], nd1[3][2], nd2[3][2], kd1[2], kd2[2], kdd[2];

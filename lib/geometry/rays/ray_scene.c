@@ -196,3 +196,13 @@ void ray_scene_blocked(const struct ray_scene *s, const struct ray *rays, size_t
 {
 	s->kernel->blocked(s, rays, NULL, n, out);
 }
+
+void ray_scene_hit(const struct ray_scene *s, const struct ray *ray, struct ray_hit *hit)
+{
+	s->kernel->hit(s, ray, hit);
+}
+
+bool ray_scene_is_blocked(const struct ray_scene *s, const struct ray *ray)
+{
+	return s->kernel->is_blocked(s, ray);
+}

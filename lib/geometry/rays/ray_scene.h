@@ -62,6 +62,11 @@ struct box ray_scene_box(const struct ray_scene *s);
 void ray_scene_hits(const struct ray_scene *s, const struct ray *rays, size_t n, bool coherent,
                     struct ray_hit *hits);
 
+/* One ray, several times quicker than a group of one; the same to rounding (1e-11 of the scene's
+ * size, more where the ray only touches). */
+void ray_scene_hit(const struct ray_scene *s, const struct ray *ray, struct ray_hit *hit);
+bool ray_scene_is_blocked(const struct ray_scene *s, const struct ray *ray);
+
 /* Is anything between near and far; out[i] true if so. */
 void ray_scene_blocked(const struct ray_scene *s, const struct ray *rays, size_t n, bool *out);
 
