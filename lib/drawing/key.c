@@ -66,6 +66,11 @@ double key_height(const struct key *k)
 	return HEAD + 2 * (TRIANGLE + GAP) + k->bar + SPACE + LINE * (w.n + k->nothing);
 }
 
+double key_bar_top(void)
+{
+	return HEAD + TRIANGLE + GAP;
+}
+
 double key_width(cairo_t *cr, const struct key *k)
 {
 	struct words w;

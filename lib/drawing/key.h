@@ -15,6 +15,7 @@ struct key {
 
 double key_width(cairo_t *cr, const struct key *k);
 double key_height(const struct key *k);
+double key_bar_top(void); /* of the bar, below the key's */
 void key_draw(cairo_t *cr, const struct key *k, double x, double y);
 
 /* Ground of places without a value: grey, hatched; (x, y) in px. */

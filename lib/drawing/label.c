@@ -10,9 +10,10 @@
 
 const char label_families[] = "Inter, DejaVu Sans, sans-serif";
 
-#define X(name, size, weight) [LABEL_##name] = { size, weight },
+#define X(name, size, weight, tabular) [LABEL_##name] = { size, weight, tabular },
 static const struct {
 	int size, weight;
+	bool tabular;
 } styles[N_LABEL_STYLES] = { LABEL_MAP(X) };
 #undef X
 
@@ -85,7 +86,7 @@ static PangoLayout *layout_create(cairo_t *cr, enum label_style style)
 	pango_layout_set_font_description(l, font);
 	pango_font_description_free(font);
 
-	if (style != LABEL_CAP) {
+	if (styles[style].tabular) {
 		PangoAttrList *attributes = pango_attr_list_new();
 		pango_attr_list_insert(attributes, pango_attr_font_features_new("tnum=1"));
 		pango_layout_set_attributes(l, attributes);

@@ -1,6 +1,5 @@
 /* label.h - text on a Cairo surface, in the program's type. Lines are single lines whatever the text
- * holds; what is no UTF-8 is shown as such, never refused. Figures are
- * all as wide as each other, but on key caps. */
+ * holds; what is no UTF-8 is shown as such, never refused. */
 #ifndef BATTEN_LABEL_H
 #define BATTEN_LABEL_H
 
@@ -8,24 +7,24 @@
 
 #include "theme.h"
 
-/* style, px, CSS weight */
+/* style, px, CSS weight, are its figures as wide as each other (1) */
 #define LABEL_MAP(X)                                                                               \
-	X(HEADING, 13, 600)                                                                        \
-	X(STRONG, 11, 600)                                                                         \
-	X(NOTE, 11, 400)                                                                           \
-	X(TITLE, 18, 600) /* of a menu, a list */                                                  \
-	X(PAGE, 20, 600)  /* title of a page of help */                                            \
-	X(ENTRY, 13, 400) /* of a menu; text of help */                                            \
-	X(PROMPT, 13, 500)                                                                         \
-	X(FORM, 12, 400)                                                                           \
-	X(NAME, 12, 500) /* buttons, chips, heads of columns */                                    \
-	X(SECTION, 12, 600)                                                                        \
-	X(CAP, 11, 500)   /* key caps, mouse words */                                              \
-	X(TYPED, 18, 400) /* what is typed into the search */                                      \
-	X(RING, 10, 400)  /* rings of a dial */                                                    \
-	X(MONO, 11, 400)  /* code, logs */
+	X(HEADING, 13, 600, 1)                                                                     \
+	X(STRONG, 11, 600, 1)                                                                      \
+	X(NOTE, 11, 400, 1)                                                                        \
+	X(TITLE, 18, 600, 0) /* of a menu, a list */                                               \
+	X(PAGE, 20, 600, 0)  /* title of a page of help */                                         \
+	X(ENTRY, 13, 400, 0) /* of a menu; text of help */                                         \
+	X(PROMPT, 13, 500, 0)                                                                      \
+	X(FORM, 12, 400, 1)                                                                        \
+	X(NAME, 12, 500, 1) /* buttons, chips, heads of columns */                                 \
+	X(SECTION, 12, 600, 0)                                                                     \
+	X(CAP, 11, 500, 0)   /* key caps, mouse words */                                           \
+	X(TYPED, 18, 400, 0) /* what is typed into the search */                                   \
+	X(RING, 10, 400, 0)  /* rings of a dial */                                                 \
+	X(MONO, 11, 400, 0)  /* code, logs */
 
-#define X(name, size, weight) LABEL_##name,
+#define X(name, size, weight, tabular) LABEL_##name,
 enum label_style { LABEL_MAP(X) N_LABEL_STYLES };
 #undef X
 

@@ -25,22 +25,108 @@ static void around(cairo_t *cr, const struct layout *l, const struct menu_model 
 static void paint_main(cairo_t *cr, const struct layout *l, const struct look *k, struct hits *h)
 {
 	around(cr, l, &model_menu, &model_mouse, &model_foot, &model_top, k, h);
+	panel_heading(cr, &l->view, "Gaussian curvature",
+	              "teapot.map.exr, 400 × 200 samples of the exact surface", true, k);
+	panel_key(cr, &l->view, &model_key, k, h);
+	panel_probe(cr, &l->view, 0.4 * l->view.width, 0.5 * l->view.height, &model_probe, k);
 }
 
 static void paint_long(cairo_t *cr, const struct layout *l, const struct look *k, struct hits *h)
 {
 	around(cr, l, &model_menu_long, &model_mouse_both, &model_foot_error, &model_top, k, h);
+	panel_key(cr, &l->view, &model_key_none, k, h);
 }
 
 static void paint_wrong(cairo_t *cr, const struct layout *l, const struct look *k, struct hits *h)
 {
 	around(cr, l, &model_menu_error, &model_mouse, &model_foot_error, &model_top, k, h);
+	panel_bar(cr, &l->view, &model_bar_long, k, h);
+}
+
+static void paint_jobs(cairo_t *cr, const struct layout *l, const struct look *k, struct hits *h)
+{
+	around(cr, l, &model_menu_jobs, &model_mouse_few, &model_foot_kill, &model_top, k, h);
+	panel_jobs(cr, &l->view, &model_jobs, k, h);
+	panel_job(cr, l, model_jobs.jobs[7], k);
+}
+
+static void paint_jobs_none(cairo_t *cr, const struct layout *l, const struct look *k,
+                            struct hits *h)
+{
+	around(cr, l, &model_menu_jobs, &model_mouse_few, &model_foot_choose, &model_top_none, k,
+	       h);
+	struct box_px rest = l->view;
+	const double bar = panel_bar_height(cr, &l->view, &model_bar);
+	rest.y += bar;
+	rest.height -= bar;
+	panel_jobs(cr, &rest, &model_jobs_none, k, h);
+	panel_bar(cr, &l->view, &model_bar, k, h);
+}
+
+static void paint_help(cairo_t *cr, const struct layout *l, const struct look *k, struct hits *h)
+{
+	around(cr, l, &model_menu, &model_mouse, &model_foot, &model_top, k, h);
+	panel_help(cr, l, &model_help, k, h);
+}
+
+static void paint_search(cairo_t *cr, const struct layout *l, const struct look *k, struct hits *h)
+{
+	around(cr, l, &model_menu, &model_mouse, &model_foot_choose, &model_top, k, h);
+	panel_search(cr, l->view.width + l->menu.width, l->mouse.y + l->mouse.height, &model_search,
+	             k, h);
+}
+
+static void paint_search_none(cairo_t *cr, const struct layout *l, const struct look *k,
+                              struct hits *h)
+{
+	around(cr, l, &model_menu, &model_mouse, &model_foot_choose, &model_top, k, h);
+	panel_search(cr, l->view.width + l->menu.width, l->mouse.y + l->mouse.height,
+	             &model_search_none, k, h);
+}
+
+static void paint_color(cairo_t *cr, const struct layout *l, const struct look *k, struct hits *h)
+{
+	around(cr, l, &model_menu_error, &model_mouse, &model_foot_error, &model_top, k, h);
+	struct box_px color, light;
+	panel_cards_place(l, &color, &light);
+	panel_color(cr, &color, &model_color, k, h);
+	panel_light(cr, &light, &model_light, k, h);
+}
+
+static void paint_empty(cairo_t *cr, const struct layout *l, const struct look *k, struct hits *h)
+{
+	around(cr, l, &model_menu_main, &model_mouse_few, &model_foot_choose, &model_top_none, k,
+	       h);
+	panel_empty(cr, &l->view, &model_empty, k, h);
+}
+
+static void paint_keys(cairo_t *cr, const struct layout *l, const struct look *k, struct hits *h)
+{
+	around(cr, l, &model_menu, &model_mouse, &model_foot_choose, &model_top, k, h);
+	panel_keys(cr, &l->view, &model_keys, k);
+}
+
+static void paint_list(cairo_t *cr, const struct layout *l, const struct look *k, struct hits *h)
+{
+	around(cr, l, &model_menu, &model_mouse, &model_foot_choose, &model_top, k, h);
+	panel_list(cr, &l->view, &model_list, k, h);
+}
+
+static void paint_question(cairo_t *cr, const struct layout *l, const struct look *k,
+                           struct hits *h)
+{
+	around(cr, l, &model_menu, &model_mouse, &model_foot_choose, &model_top, k, h);
+	panel_list(cr, &l->view, &model_question, k, h);
 }
 
 const struct screen screens[] = {
-	{ "main", 11, paint_main },
-	{ "long", 14, paint_long },
-	{ "wrong", 5, paint_wrong },
+	{ "main", 11, paint_main },          { "long", 14, paint_long },
+	{ "wrong", 5, paint_wrong },         { "jobs", 4, paint_jobs },
+	{ "jobs-none", 4, paint_jobs_none }, { "help", 11, paint_help },
+	{ "search", 11, paint_search },      { "search-none", 11, paint_search_none },
+	{ "color", 5, paint_color },         { "empty", 6, paint_empty },
+	{ "keys", 11, paint_keys },          { "list", 11, paint_list },
+	{ "question", 11, paint_question },
 };
 const int n_screens = sizeof screens / sizeof *screens;
 

@@ -79,6 +79,10 @@ double paint_button(const struct paint *p, double x, double y, const struct butt
 			             TOKEN_ONACCENT);
 	} else {
 		paint_raised(p, x, y, width, PAINT_BUTTON, 6);
+		if (b->on_card) {
+			paint_fill(p, x, y, width, PAINT_BUTTON, 6, TOKEN_FIELD);
+			paint_border(p, x, y, width, PAINT_BUTTON, 6, 1, TOKEN_LINE);
+		}
 		if (hot) {
 			paint_fill(p, x, y, width, PAINT_BUTTON, 6, TOKEN_HOVER);
 			paint_border(p, x, y, width, PAINT_BUTTON, 6, 1, TOKEN_EDGE);

@@ -168,11 +168,16 @@ static int first_field(const struct form *f, double room)
 
 static double paint_buttons(const struct form *f, double right, double y, bool both)
 {
-	const struct button main = { f->m->main_button, "Enter", true,      false,
-		                     HIT_BUTTON,        0,       GROUP_FORM };
-	const struct button other = {
-		f->m->other_button, f->m->other_key, false, false, HIT_BUTTON, 1, GROUP_FORM
-	};
+	const struct button main = { .text = f->m->main_button,
+		                     .key = "Enter",
+		                     .main = true,
+		                     .kind = HIT_BUTTON,
+		                     .part = GROUP_FORM };
+	const struct button other = { .text = f->m->other_button,
+		                      .key = f->m->other_key,
+		                      .kind = HIT_BUTTON,
+		                      .index = 1,
+		                      .part = GROUP_FORM };
 	if (main.text)
 		right -= paint_button(f->p, right - paint_button_width(f->p, &main), y, &main) + 8;
 	if (both && other.text && right - paint_button_width(f->p, &other) > f->x)

@@ -76,14 +76,21 @@ double paint_hint(const struct paint *p, double x, double middle, const char *ke
 double paint_hint_width(const struct paint *p, const char *key, const char *word);
 
 struct button {
-	const char *text, *key; /* key may be NULL */
-	bool main, off;
+	const char *text, *key;  /* key may be NULL */
+	bool main, off, on_card; /* on_card: on raised ground */
 	enum hit_kind kind;
 	int index, part;
 };
 double paint_button_width(const struct paint *p, const struct button *b);
 double paint_button(const struct paint *p, double x, double y, const struct button *b);
 void paint_toggle(const struct paint *p, double x, double middle, bool on);
+
+void paint_slider(const struct paint *p, double x, double middle, double width, double at,
+                  bool hot); /* at 0 .. 1 */
+
+/* Ground of the view over what it shows, for letters; black over all that is out of reach now. */
+void paint_plate(const struct paint *p, double x, double y, double width, double height);
+void paint_dim(const struct paint *p, double x, double y, double width, double height);
 
 /* What is under the mouse or has the focus of the keyboard, and where things are. */
 bool paint_hot(const struct paint *p, enum hit_kind kind, int index, int part);

@@ -12,7 +12,7 @@
 
 /* What lies where: filled in by painters, asked by the mouse. index and part of each: */
 enum hit_kind {
-	HIT_NONE,
+	HIT_NONE, /* a card or page where nothing can be clicked; it hides what lies below */
 	HIT_MENU_ROW,
 	HIT_FIELD,
 	HIT_CHOICE, /* the field; part: which choice, of a yes or no 0 */
@@ -25,8 +25,8 @@ enum hit_kind {
 	HIT_WORLD,
 	HIT_CANDIDATE,
 	HIT_RESULT,
-	HIT_KEY_LOW, /* an end of the key's bar; the whole bar lies between both */
-	HIT_KEY_HIGH,
+	HIT_KEY_LOW, /* the lower and the upper half of the key's bar, each with 14 px beyond its */
+	HIT_KEY_HIGH,    /* end: what lies nearer to an end drags it */
 	HIT_COLOR_WHEEL, /* 0: saturation to the right, value upward; 1: hue, from 0 at the top */
 	HIT_COLOR_VALUE, /* 0 to 2: slider of hue, saturation, value; 3: the old color; 4 on: samples */
 	HIT_LIGHT,       /* 0: the dial, its box a square about it; 1: slider of the intensity */
@@ -155,8 +155,8 @@ struct jobs_model {
 	const char *slots; /* "3 of 4 job slots in use" */
 	const char *log_title, *const *log;
 	int n_log;
-	double now;
-	bool can[5]; /* suspend, activate, kill, retry, open */
+	double now;  /* seconds since 1970 */
+	bool can[5]; /* suspend, activate, kill, retry, open: HIT_BUTTON of GROUP_JOBS */
 };
 struct search_model {
 	const char *typed;
@@ -167,10 +167,17 @@ struct search_model {
 	} results[8];
 	int n, found, all, chosen;
 };
+/*
+ * A text of help: paragraphs with an empty line between. A line of one of the words purpose,
+ * arguments, result, example, see also (with or without capital and colon) begins that section; so does
+ * any other line that stands alone and ends with a colon. In arguments a line is a row of a table: name,
+ * value and meaning with two blanks or a tab between, indented lines go on with the meaning. Lines of an
+ * example are kept as they are. See also: CODE NAME, by comma or line, each a link.
+ */
 struct help_model {
-	const char *code, *title, *kind, *path;
-	const char *text; /* paragraphs as the help look-up gives them */
-	double scroll;
+	const char *code, *title, *kind, *path; /* path: "CURVATURE › GAUSSIAN" */
+	const char *text;
+	double scroll; /* px; at most panel_help_scroll() has a meaning */
 };
 struct keys_model { /* the sheet of all keys */
 	const struct key_row {
@@ -180,11 +187,11 @@ struct keys_model { /* the sheet of all keys */
 	int n;
 };
 struct color_model {
-	double hue, saturation, value;
+	double hue, saturation, value; /* 0 to 360; 0 to 1 */
 	struct rgb old;
-	const char *what;
+	const char *what; /* "Color of hull" */
 };
-struct light_model {
+struct light_model { /* degrees from the x axis, degrees from the vertical, 0 to 1 */
 	double azimuth, incidence, intensity;
 };
 struct bar_model {
@@ -197,7 +204,7 @@ struct empty_model {
 };
 struct list_model { /* plain lists: messages, questions before loss of work */
 	const char *title, *const *lines;
-	int n, scroll;
+	int n, scroll; /* scroll: the first line shown */
 	const char *const *buttons;
 	int n_buttons;
 };
@@ -213,27 +220,53 @@ void panel_foot(cairo_t *cr, const struct layout *l, const struct foot_model *m,
                 const struct look *k, struct hits *h);
 void panel_heading(cairo_t *cr, const struct box_px *view, const char *title, const char *note,
                    bool strong, const struct look *k);
+/* Beside (x, y), within the view. */
 void panel_probe(cairo_t *cr, const struct box_px *view, double x, double y,
                  const struct probe_model *m, const struct look *k);
+/* A map without values (lo not below hi) says so. */
 void panel_key(cairo_t *cr, const struct box_px *view, const struct key_model *m,
                const struct look *k, struct hits *h);
+
+/* Over the whole view. */
 void panel_jobs(cairo_t *cr, const struct box_px *b, const struct jobs_model *m,
                 const struct look *k, struct hits *h);
+int panel_jobs_rows(const struct box_px *b); /* that have room: for scrolling */
+/* What is known of one job, in the panel's form part. */
+void panel_job(cairo_t *cr, const struct layout *l, const struct Stats *job, const struct look *k);
+
+/* Over the whole window, which is dimmed. */
 void panel_search(cairo_t *cr, double width, double height, const struct search_model *m,
                   const struct look *k, struct hits *h);
+
+/* Over the menu and the view's edge. */
 void panel_help(cairo_t *cr, const struct layout *l, const struct help_model *m,
                 const struct look *k, struct hits *h);
+double panel_help_scroll(cairo_t *cr, const struct layout *l, const struct help_model *m);
+/* "V81" of link `index` of a text; false: there is none. */
+bool panel_help_link(const char *text, int index, char *code, size_t size);
+
 void panel_keys(cairo_t *cr, const struct box_px *b, const struct keys_model *m,
                 const struct look *k);
+
+/* Cards. Their boxes beside each other in a layout: below each other where they fit. */
+void panel_cards_place(const struct layout *l, struct box_px *color, struct box_px *light);
 void panel_color(cairo_t *cr, const struct box_px *b, const struct color_model *m,
                  const struct look *k, struct hits *h);
+struct rgb panel_color_rgb(const struct color_model *m);
+struct rgb panel_color_sample(int index); /* HIT_COLOR_VALUE 4 + index */
 void panel_light(cairo_t *cr, const struct box_px *b, const struct light_model *m,
                  const struct look *k, struct hits *h);
+
+/* At the top of the box: the view, of which the rest is left to others. */
+double panel_bar_height(cairo_t *cr, const struct box_px *b, const struct bar_model *m);
 void panel_bar(cairo_t *cr, const struct box_px *b, const struct bar_model *m, const struct look *k,
                struct hits *h);
+/* HIT_BUTTON of GROUP_EMPTY: 0 open a file, then the recent ones, then start from a patch. */
 void panel_empty(cairo_t *cr, const struct box_px *b, const struct empty_model *m,
                  const struct look *k, struct hits *h);
+/* A card in the box's middle; with buttons (the safe one last) the box is dimmed. */
 void panel_list(cairo_t *cr, const struct box_px *b, const struct list_model *m,
                 const struct look *k, struct hits *h);
+int panel_list_rows(const struct box_px *b, const struct list_model *m); /* lines that have room */
 
 #endif
