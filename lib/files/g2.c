@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base_scan.h"
+#include "g2_elementary.h"
 #include "number.h"
 
 enum { CLASS_CURVE = 100, CLASS_SURFACE = 200, CLASS_POINTS = 400, AUXILIARY_MAX = 64 };
@@ -242,17 +243,62 @@ static void keep(struct scanner *p, struct entity *e, int class)
 	scan_keep(p, st == ST_OK ? model_add(p->m, e) : model_skip(p->m, class, 0, store.error));
 }
 
+/* All numbers up to the next header. */
+static int scan_object(struct scanner *p, double out[G2_ELEMENTARY_MAX])
+{
+	int n = 0;
+	for (scan_blanks(p); p->st == ST_OK && p->token < p->end; scan_blanks(p)) {
+		bool begins_line = p->token == p->start || p->token[-1] == '\n';
+		if (begins_line && is_header(p->token, p->end, true))
+			break;
+		double x = scan_number(p, n < G2_ELEMENTARY_MAX ? "number"
+		                                                : "the header of the next object");
+		if (n < G2_ELEMENTARY_MAX)
+			out[n++] = x;
+		else
+			scan_fail(p, "the header of the next object");
+	}
+	return n;
+}
+
+static void parse_elementary(struct scanner *p, int class, struct entity *e)
+{
+	double x[G2_ELEMENTARY_MAX];
+	const char *reason;
+	int n = scan_object(p, x);
+	if (p->st != ST_OK)
+		return;
+	enum status st = g2_make_elementary(class, x, n, e, &reason);
+	if (st == ST_OK) {
+		keep(p, e, class);
+	} else if (st == ST_RESOURCE) {
+		scan_no_memory(p);
+	} else {
+		char sentence[160];
+		snprintf(sentence, sizeof sentence, "a %s: %s", class_name(class), reason);
+		scan_keep(p, model_skip(p->m, class, 0, sentence));
+	}
+}
+
 static void parse_object(struct scanner *p)
 {
+	enum entity_kind kind;
 	struct g2_header h;
 	struct entity e;
 	scan_header(p, &h);
 	if (p->st != ST_OK)
 		return;
-	entity_init(&e, h.class == CLASS_CURVE     ? ENTITY_CURVE
+	bool elementary = g2_is_elementary(h.class, &kind);
+	entity_init(&e, elementary                 ? kind
+	                : h.class == CLASS_CURVE   ? ENTITY_CURVE
 	                : h.class == CLASS_SURFACE ? ENTITY_SURFACE
 	                                           : ENTITY_POINTS);
 	set_color(&e, &h);
+	if (elementary) {
+		parse_elementary(p, h.class, &e);
+		entity_finish(&e);
+		return;
+	}
 	if (h.class == CLASS_CURVE)
 		scan_curve(p, &e);
 	else if (h.class == CLASS_SURFACE)

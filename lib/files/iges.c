@@ -90,7 +90,7 @@ static enum status read_geometry(struct iges *g, int de, struct entity *out)
 		st = iges_name_behind(&c, out);
 	if (st == ST_OK)
 		st = iges_color(g, de, out);
-	return st;
+	return st == ST_OK ? iges_group(g, de, out) : st;
 }
 
 /* Faces on a surface that cannot be read are lost with it. */
@@ -228,6 +228,8 @@ static enum status read_all(struct iges *g)
 	if (st == ST_OK)
 		st = iges_find_uses(g);
 	if (st == ST_OK)
+		st = iges_find_groups(g);
+	if (st == ST_OK)
 		st = iges_place(g);
 	g->budget = (int64_t)BUDGET_A_LINE * g->n_p + BUDGET_MORE;
 	if (st == ST_OK)
@@ -276,6 +278,7 @@ enum status iges_parse(struct model *m, const char *bytes, size_t n, const char 
 	free(g.matrices);
 	model_finish(&g.more);
 	free(g.bounds);
+	iges_finish_groups(&g);
 	free(g.edges.curves);
 	return st;
 }

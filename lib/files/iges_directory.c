@@ -66,6 +66,7 @@ enum status iges_read_directory(struct iges *g)
 			.lines = field_int(g, b, 3),
 			.form = field_int(g, b, 4),
 			.subscript = field_int(g, b, 8),
+			.group = -1,
 			.uses = -1,
 			.first_edge = -1,
 		};

@@ -96,7 +96,7 @@ static enum status copy_shape(struct entity *out, const struct entity *e)
 	return st;
 }
 
-/* Names and colors stand with the face as often as with the surface under it. */
+/* Names, colors and groups stand with the face as often as with the surface under it. */
 static enum status name_face(struct iges *g, const struct iges_use *u, struct entity *e)
 {
 	enum status st = ST_OK;
@@ -104,6 +104,8 @@ static enum status name_face(struct iges *g, const struct iges_use *u, struct en
 		st = iges_name(g, u->face, e);
 	if (st == ST_OK && u->face && !e->has_color)
 		st = iges_color(g, u->face, e);
+	if (st == ST_OK && u->face)
+		st = iges_group(g, u->face, e);
 	return st;
 }
 

@@ -1,9 +1,10 @@
 /* iges_format.c - writer of IGES 5.3: 126 and 128, their names (406 form 15) and colors (314); trims
- * are in iges_format_trims.c. */
+ * are in iges_format_trims.c, groups in iges_format_groups.c. */
 #include "iges_writer.h"
 
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "file.h"
@@ -180,14 +181,20 @@ int iges_begin(struct iges_writer *w, int type)
 }
 
 /* What stands behind the parameters: no associations, a name or none. */
-void iges_end(struct iges_writer *w, int type, int color, int name, const char *status)
+void iges_end_form(struct iges_writer *w, int type, int form, int color, int name,
+                   const char *status)
 {
 	iges_put_int(w, 0, ',');
 	iges_put_int(w, name != 0, name ? ',' : ';');
 	if (name)
 		iges_put_int(w, name, ';');
 	end_line(w);
-	put_entry(w, type, 0, w->n_p - w->from, color, status);
+	put_entry(w, type, form, w->n_p - w->from, color, status);
+}
+
+void iges_end(struct iges_writer *w, int type, int color, int name, const char *status)
+{
+	iges_end_form(w, type, 0, color, name, status);
 }
 
 /* Helper entities, written before those that point to them. */
@@ -201,7 +208,7 @@ static int put_color(struct iges_writer *w, const double color[3])
 	return de;
 }
 
-static int put_name(struct iges_writer *w, const char *name)
+int iges_put_name(struct iges_writer *w, const char *name)
 {
 	int de = iges_begin(w, 406);
 	iges_put_int(w, 1, ',');
@@ -268,12 +275,14 @@ static void put_entity(struct iges_writer *w, const struct entity *e)
 	bool trimmed = !curve && e->trim.n;
 	int type = curve ? 126 : 128;
 	int color = e->has_color ? -put_color(w, e->color) : 0;
-	int name = e->name && e->name[0] ? put_name(w, e->name) : 0;
+	int name = e->name && e->name[0] ? iges_put_name(w, e->name) : 0;
 	int de = iges_begin(w, type);
 	w->data.failed |= !put_shape(w, curve, &e->geometry);
 	iges_end(w, type, color, trimmed ? 0 : name, trimmed ? "00010000" : "00000000");
 	if (trimmed)
 		w->data.failed |= iges_put_trims(w, e, de, color, name) != ST_OK;
+	else
+		iges_join_group(w, e, de);
 }
 
 /* Unit flag of global field 14; 3 says that the name in field 15 counts. */
@@ -344,6 +353,7 @@ void iges_format(const struct model *m, struct text *out)
 	struct iges_writer w = { 0 };
 	for (int i = 0; i < m->n; i++)
 		put_entity(&w, &m->entities[i]);
+	iges_put_groups(&w);
 	int n_s = put_header(out, 'S', start, sizeof start - 1);
 	int n_g = put_global(m, out);
 	text_add_bytes(out, w.directory.s, w.directory.n);
@@ -354,6 +364,7 @@ void iges_format(const struct model *m, struct text *out)
 	text_finish(&w.directory);
 	text_finish(&w.data);
 	text_finish(&w.line);
+	free(w.members);
 }
 
 enum status iges_write(const struct model *m, const char *path, const struct report *r)

@@ -87,7 +87,7 @@ static enum status put_face(struct iges_writer *w, const struct entity *e, const
 			inner[n++] = loops[i];
 	}
 	if (st == ST_OK) {
-		iges_begin(w, 144);
+		iges_join_group(w, e, iges_begin(w, 144));
 		iges_put_int(w, base, ',');
 		iges_put_int(w, outer >= 0, ',');
 		iges_put_int(w, n, ',');

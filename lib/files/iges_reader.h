@@ -39,6 +39,7 @@ struct iges_entry {
 	bool reached;      /* a face, shell, solid or instance that has been placed */
 	char state;        /* of a definition, while it is looked for circles */
 	int uses;          /* last of its uses, in uses[], -1: none */
+	int group;         /* in group_names[], of which it is a member; -1: of none with a name */
 	int first_edge;    /* in bounds[]: curves that bound the faces on it; -1: none */
 };
 
@@ -105,6 +106,8 @@ struct iges {
 	struct iges_bound *bounds; /* owned */
 	double (*matrices)[3][4];  /* owned */
 	int n_uses, n_bounds, n_matrices;
+	char **group_names; /* owned */
+	int n_groups;
 	int64_t budget; /* P lines that may still be read on behalf of other entities: keeps files
 	                   that refer to themselves in ever more ways from taking ever more time */
 	int64_t copies; /* P lines whose entities instances may still repeat */
@@ -200,6 +203,13 @@ bool iges_is_group(const struct iges_entry *e);
 enum status iges_name_behind(struct iges_cursor *c, struct entity *out);
 enum status iges_name(struct iges *g, int de, struct entity *out);
 enum status iges_color(struct iges *g, int de, struct entity *out);
+
+/* iges_groups.c: which groups (402) have names, and what is in them. Errors: ST_RESOURCE,
+ * ST_CANCELLED. */
+enum status iges_find_groups(struct iges *g);
+/* The name of the group of entry `de` as the attribute "group", unless there is one. */
+enum status iges_group(struct iges *g, int de, struct entity *out);
+void iges_finish_groups(struct iges *g);
 
 /* iges_faces.c: the uses of an entity that has been read: its trims, its place, its copies (to
  * g->more). Errors: ST_RESOURCE, ST_CANCELLED. */

@@ -4,12 +4,20 @@
 
 #include "iges.h"
 
+/* An entity written that belongs to a group. */
+struct iges_member {
+	const char *group; /* borrowed */
+	int de;
+};
+
 struct iges_writer {
 	struct text directory, data; /* whole lines */
 	struct text line;            /* data columns of the P line begun */
 	int n_d, n_p;                /* lines in them */
 	int de;                      /* of the entity at hand */
 	int from;                    /* P lines before it */
+	struct iges_member *members; /* owned; in the order of their numbers */
+	int n_members;
 };
 
 /* One entity: begin, its numbers, end with its color (0, or minus a 314) and status number. Gives
@@ -18,6 +26,13 @@ int iges_begin(struct iges_writer *w, int type);
 void iges_put_int(struct iges_writer *w, int x, char delimiter);
 void iges_end(struct iges_writer *w, int type, int color, int name, const char *status);
 
+/* Likewise with a form. */
+void iges_end_form(struct iges_writer *w, int type, int form, int color, int name,
+                   const char *status);
+
+/* A property with a name (406 form 15). */
+int iges_put_name(struct iges_writer *w, const char *name);
+
 /* A whole 126 with that status. */
 int iges_put_curve(struct iges_writer *w, const struct curve *c, const char *status);
 
@@ -25,5 +40,10 @@ int iges_put_curve(struct iges_writer *w, const struct curve *c, const char *sta
  * and all that they need. Errors: ST_RESOURCE. */
 enum status iges_put_trims(struct iges_writer *w, const struct entity *e, int base, int color,
                            int name);
+
+/* iges_format_groups.c: note that `de` shows e, which may be of a group; write all groups that were
+ * met, 402 form 7 with their names. Without memory w->data fails. */
+void iges_join_group(struct iges_writer *w, const struct entity *e, int de);
+void iges_put_groups(struct iges_writer *w);
 
 #endif

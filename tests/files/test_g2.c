@@ -65,7 +65,7 @@ static void what_is_not_read_is_named(void **state)
 	struct report_store store;
 	struct text t = { 0 };
 	text_add(&t, "250 1 0 0\n3\n0 0 0\n0 0 1\n1 0 0\n0\n0\n\n");
-	text_add(&t, "270 1 0 0\n3\n1\n0 0 0\n0 0 1\n1 0 0\n0 6.28 -1.57 1.57\n0\n");
+	text_add(&t, "292 1 0 0\n3\n0 0 0\n1\n0 0 1\n1 0 0\n0\n0 1 0 6.28\n0\n");
 	text_add(&t, arc);
 	text_add(&t, "250 1 0 0\n3\n0 0 0\n0 0 1\n1 0 0\n0\n0\n");
 	/* knots that fall cost this curve alone */
@@ -79,7 +79,7 @@ static void what_is_not_read_is_named(void **state)
 	assert_int_equal(m.n_skipped, 3);
 	assert_true(m.skipped[0].type == 250 && m.skipped[0].count == 2);
 	assert_non_null(strstr(m.skipped[0].reason, "Plane"));
-	assert_int_equal(m.skipped[1].type, 270);
+	assert_int_equal(m.skipped[1].type, 292);
 	assert_int_equal(m.skipped[2].type, 100);
 	model_finish(&m);
 	text_finish(&t);
@@ -99,7 +99,9 @@ static void faults_are_named(void **state)
 		{ "100 1 0 0\n3 0\n2 2\n0 0 1 1\n0 0 0\n1 1 1\nhello\n",
 		  "a.g2:7:1: found 'hello'" },
 		{ "200 1 0 2000000000\n", "found '2000000000', expected number of auxiliary" },
-		{ "250 1 0 0\n3\n", "a Plane is not read" },
+		{ "292 1 0 0\n3\n", "a Disc is not read" },
+		{ "250 1 0 0\n3\n", "a Plane: its numbers describe nothing" },
+		{ "250 1 0 0\n3\nabc\n", "found 'abc'" },
 		{ "100 1 0 0\n3 0\n2 2\n0 0 1 -1\n0 0 0\n1 1 1\n", "the curve" },
 	};
 	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -114,6 +116,99 @@ static void faults_are_named(void **state)
 	assert_false(g2_recognise("100 1 0\n", 8));
 	assert_false(g2_recognise("105 1 0 0\n", 10));
 	assert_false(g2_recognise("1.5 2 3 4\n", 10));
+}
+
+/* Elementary classes by points of theirs: at what parameters, old and new dress, both directions. */
+static void elementary_ones_become_splines(void **state)
+{
+	static const double h = 0.70710678118654752;
+	static const struct {
+		const char *text;
+		double u, v;
+		struct vec3 p;
+	} rows[] = {
+		{ "120 1 0 0\n3\n1 2 3\n0 0 2\n1\n-1 3\n0\n", 1, 0, { 1, 2, 5 } },
+		{ "120 1 0 0\n3\n1 2 3\n0 0 2\n11\n-1 3\n0 1\n1\n", 0.25, 0, { 1, 2, 7 } },
+		{ "120 1 0 0\n2\n1 2\n1 1\n1\n0 1\n", 0.5, 0, { 1.5, 2.5, 0 } },
+		{ "130 1 0 0\n3\n2\n1 0 0\n0 0 3\n5 0 1\n0 6.2831853\n", M_PI / 2, 0, { 1, 2, 0 } },
+		{ "130 1 0 0\n3\n2\n1 0 0\n0 0 1\n1 0 0\n0 3.14159265358979312\n11\n0 1\n",
+		  0.25,
+		  0,
+		  { 1 - 2 * h, 2 * h, 0 } },
+		{ "130 1 0 0\n2\n2\n1 0\n0 0\n0 1\n0 3.14159265358979312\n0\n",
+		  M_PI / 2,
+		  0,
+		  { -1, 0, 0 } },
+		{ "140 1 0 0\n3\n2\n1\n0 0 0\n0 0 1\n0 1 0\n0 3.14159265358979312\n0\n",
+		  M_PI / 2,
+		  0,
+		  { -1, 0, 0 } },
+		{ "250 1 0 0\n3\n0 0 1\n0 0 1\n1 0 0\n1\n0 2\n0 4\n0\n", 1, 3, { 1, 3, 1 } },
+		{ "250 1 0 0\n3\n0 0 1\n0 0 1\n1 0 0\n11\n0 2\n0 4\n0 1\n0 1\n1\n",
+		  0.75,
+		  0.5,
+		  { 1, 3, 1 } },
+		{ "260 1 0 0\n3\n2\n0 0 0\n0 0 1\n1 0 0\n1\n0 6.28318530717958623\n-1 1\n0\n",
+		  M_PI / 2,
+		  0.5,
+		  { 0, 2, 0.5 } },
+		{ "270 1 0 0\n3\n2\n0 0 0\n0 0 1\n1 0 0\n0 6.28318530717958623\n"
+		  "-1.57079632679489656 1.57079632679489656\n0\n",
+		  M_PI,
+		  0,
+		  { -2, 0, 0 } },
+		{ "280 1 0 0\n3\n2\n0 0 0\n0 0 1\n1 0 0\n0.78539816339744828\n1\n"
+		  "0 6.28318530717958623\n-2 1\n0\n",
+		  M_PI / 2,
+		  1,
+		  { 0, 3, 1 } },
+		{ "290 1 0 0\n3\n5\n1\n0 0 0\n0 0 1\n1 0 0\n1\n0 6.28318530717958623\n"
+		  "0 6.28318530717958623\n10\n0 1\n0 1\n",
+		  0.25,
+		  0.5,
+		  { 0, 4, 0 } },
+	};
+	(void)state;
+	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+		struct model m;
+		struct report_store store;
+		struct text t = { 0 };
+		text_addf(&t, "%s%s", rows[i].text, arc); /* what follows is found */
+		if (parse(&m, t.s, t.n, &store) != ST_OK || m.n != 2)
+			fail_msg("row %zu: %s", i, m.n_skipped ? m.skipped[0].reason : store.error);
+		const struct entity *e = &m.entities[0];
+		struct vec3 p = e->kind == ENTITY_CURVE
+		                        ? curve_point(&e->curve, rows[i].u)
+		                        : surface_point(&e->geometry, rows[i].u, rows[i].v);
+		if (!(vec3_length(vec3_sub(p, rows[i].p)) <= 1e-14))
+			fail_msg("row %zu: %.17g %.17g %.17g", i, p.x, p.y, p.z);
+		model_finish(&m);
+		text_finish(&t);
+	}
+}
+
+/* On them to rounding, all over: the distance from what they are. */
+static void elementary_ones_are_exact(void **state)
+{
+	static const char text[] = "260 1 0 0\n3\n2\n1 2 3\n0 0 1\n1 0 0\n1\n0.3 4\n-1 1\n0\n"
+	                           "270 1 0 0\n3\n2\n1 2 3\n0 0 1\n1 0 0\n0 5\n-1 1.2\n0\n"
+	                           "290 1 0 0\n3\n5\n2\n1 2 3\n0 0 1\n1 0 0\n1\n0 5\n0.5 6\n0\n";
+	struct model m;
+	struct report_store store;
+	(void)state;
+	assert_int_equal(parse(&m, text, sizeof text - 1, &store), ST_OK);
+	assert_int_equal(m.n, 3);
+	for (int k = 0; k < 3 * 400; k++) {
+		const struct surface *s = &m.entities[k / 400].geometry;
+		double u = k % 20 / 19.0, v = k / 20 % 20 / 19.0;
+		struct vec3 p =
+		        surface_point(s, s->domain[0][0] + u * (s->domain[0][1] - s->domain[0][0]),
+		                      s->domain[1][0] + v * (s->domain[1][1] - s->domain[1][0]));
+		double r = hypot(p.x - 1, p.y - 2), z = p.z - 3;
+		double off = k < 400 ? r - 2 : k < 800 ? hypot(r, z) - 2 : hypot(r - 5, z) - 2;
+		assert_true(fabs(off) < 1e-14);
+	}
+	model_finish(&m);
 }
 
 static void same_surface(const struct surface *a, const struct surface *b)
@@ -226,6 +321,8 @@ int main(void)
 		cmocka_unit_test(a_surface_is_read),
 		cmocka_unit_test(a_rational_curve_is_read),
 		cmocka_unit_test(what_is_not_read_is_named),
+		cmocka_unit_test(elementary_ones_become_splines),
+		cmocka_unit_test(elementary_ones_are_exact),
 		cmocka_unit_test(faults_are_named),
 		cmocka_unit_test(written_is_read_to_the_bit),
 		cmocka_unit_test(a_part_is_written_as_such),

@@ -111,11 +111,58 @@ static void a_missing_unit_is_told(void **state)
 	rmdir(folder);
 }
 
+/* Names of groups are an attribute of their members, a face's of the surface under it. */
+static void groups_are_kept(void **state)
+{
+	static const struct made_entity entities[MADE_MAX] = {
+		{ 110, 0, "110,0.,0.,0.,1.,0.,0.;" },
+		{ 128, 0, SQUARE },
+		{ 144, 0, "144,3,1,0,7;" },
+		{ 142, 0, "142,0,3,17,0,1;" },
+		{ 402, 7, "402,2,5,1,0,1,11;" },
+		{ 406, 15, "406,1,9Hfore ship;" },
+		{ 402, 1, "402,1,17;", 0, 0, NULL, "AFT" },
+		{ 402, 7, "402,1,1,0,1,11;" }, /* in one group twice */
+	};
+	struct made_entity all[MADE_MAX + 1];
+	const struct made_file f = { 0 };
+	struct model a, b;
+	struct text t = { 0 };
+	(void)state;
+	memcpy(all, entities, sizeof entities);
+	all[MADE_MAX] = (struct made_entity){ 100, 0, DISK };
+	make_iges(&t, &f, all, MADE_MAX + 1);
+	model_init(&a);
+	assert_int_equal(iges_parse(&a, t.s, t.n, "x.igs", NULL, NULL), ST_OK);
+	assert_int_equal(a.n, 3);
+	assert_string_equal(entity_get_attribute(&a.entities[0], "group"), "fore ship");
+	assert_string_equal(entity_get_attribute(&a.entities[1], "group"), "fore ship");
+	assert_string_equal(entity_get_attribute(&a.entities[2], "group"), "AFT");
+	text_reset(&t);
+	iges_format(&a, &t);
+	assert_false(t.failed);
+	model_init(&b);
+	assert_int_equal(iges_parse(&b, t.s, t.n, "y.igs", NULL, NULL), ST_OK);
+	assert_int_equal(b.n_skipped, 0);
+	int fore = 0, aft = 0;
+	for (int i = 0; i < b.n; i++) {
+		const char *group = entity_get_attribute(&b.entities[i], "group");
+		fore += group && strcmp(group, "fore ship") == 0;
+		aft += group && strcmp(group, "AFT") == 0;
+	}
+	assert_int_equal(fore, 2);
+	assert_int_equal(aft, 1);
+	model_finish(&a);
+	model_finish(&b);
+	text_finish(&t);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(written_is_read_again),
 		cmocka_unit_test(only_what_is_meant_is_written),
+		cmocka_unit_test(groups_are_kept),
 		cmocka_unit_test(a_missing_unit_is_told),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
