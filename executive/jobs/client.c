@@ -55,15 +55,28 @@ static enum status open_socket(int *out, const char *path, const struct report *
 	return ST_OK;
 }
 
-/* Wait until all copies of the pipe's other end are closed, or the time is out. */
-static bool wait_closed(int fd)
+/* Wait until all copies of the pipe's other end are closed, or nothing has happened for READY_MS. */
+static bool wait_closed(int fd, const struct project *project, const struct report *r)
 {
 	struct pollfd p = { .fd = fd, .events = POLLIN };
-	int n;
+	int64_t touched = lock_touched(project);
+	bool told = false;
 
-	while ((n = poll(&p, 1, READY_MS)) < 0 && errno == EINTR)
-		;
-	return n > 0;
+	for (;;) {
+		int n = poll(&p, 1, READY_MS);
+		if (n > 0)
+			return true;
+		if (n < 0 && errno != EINTR)
+			return false;
+		int64_t last = touched;
+		touched = lock_touched(project);
+		if (n == 0 && touched == last)
+			return false;
+		if (n == 0 && !told)
+			report_info(r, "the service reads a ledger of many jobs; 'batten prune' "
+			               "forgets those that have ended");
+		told |= n == 0;
+	}
 }
 
 /* The environment with BATTEN_READY_FD. Fresh array; its last string is `ready`. */
@@ -111,7 +124,7 @@ static enum status start_service(const struct project *p, const struct report *r
 	}
 	if (fds[1] >= 0)
 		close(fds[1]);
-	bool answered = !error && wait_closed(fds[0]);
+	bool answered = !error && wait_closed(fds[0], p, r);
 	if (fds[0] >= 0)
 		close(fds[0]);
 	posix_spawn_file_actions_destroy(&actions);

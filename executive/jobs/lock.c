@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -103,6 +104,20 @@ enum status lock_take(const struct project *p, bool wait, int *fd, const struct 
 		close(*fd);
 	free(path);
 	return st;
+}
+
+void lock_touch(int fd)
+{
+	futimens(fd, NULL);
+}
+
+int64_t lock_touched(const struct project *p)
+{
+	char *path = path_join(p->hidden, "lock");
+	struct stat s;
+	bool there = path && !stat(path, &s);
+	free(path);
+	return there ? (int64_t)s.st_mtim.tv_sec * 1000000000 + s.st_mtim.tv_nsec : 0;
 }
 
 void lock_listening(int fd, bool listening)

@@ -3,6 +3,7 @@
 #define BATTEN_LOCK_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "project.h"
 
@@ -15,6 +16,11 @@
  */
 enum status lock_take(const struct project *p, bool wait, int *fd, const struct report *r);
 void lock_listening(int fd, bool listening);
+
+/* A service that takes long to begin says now and then that it does begin: its lock's time changes.
+ * Nanoseconds of that time, 0 where there is no lock. */
+void lock_touch(int fd);
+int64_t lock_touched(const struct project *p);
 
 /* Where the service that took the lock last listens: another environment may have given it another
  * place than p->socket. Fresh; NULL: not known. */

@@ -293,6 +293,8 @@ static enum status queue_take(void *data, struct Stats *s, bool front, bool kill
 	job->front = front;
 	queue_insert(q, job);
 	job_loaded(job, killed);
+	if (q->ports.loading)
+		q->ports.loading(q->ports.loading_data, q->n);
 	return ST_OK;
 }
 

@@ -36,6 +36,9 @@ struct queue_ports {
 	const struct launcher *launcher;
 	const struct ledger *ledger;
 	const struct clock *clock;
+	/* So many jobs have been taken out of the ledger. NULL: nobody listens. */
+	void (*loading)(void *data, int n);
+	void *loading_data;
 	/* A job has changed, and the change is in the ledger; s is borrowed. */
 	void (*told)(void *data, const struct Stats *s);
 	void *told_data;

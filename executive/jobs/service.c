@@ -20,6 +20,8 @@
 #include "tidy.h"
 
 /* jobs at once at least; milliseconds after which an ending service waits no more */
+/* of a long ledger, after which the lock is touched */
+enum { TOUCH_JOBS = 10000 };
 enum { JOBS_LEAST = 4, LEAVE_MS = 4500, BACKLOG_CONNECTIONS = 128 };
 
 static double clock_elapsed(void *data)
@@ -76,6 +78,13 @@ static void on_tidy(void *data, const struct Stats *job)
 {
 	(void)data;
 	tidy_outputs(job);
+}
+
+static void on_loading(void *data, int n)
+{
+	const struct server *s = data;
+	if (n % TOUCH_JOBS == 0)
+		lock_touch(s->lock);
 }
 
 static void hooks_told(struct server *s, const struct Stats *job)
@@ -300,6 +309,8 @@ static enum status server_open(struct server *s, const struct settings *settings
 		.clock = &s->clock,
 		.told = on_told,
 		.told_data = s,
+		.loading = on_loading,
+		.loading_data = s,
 		.room = room_left,
 		.size = output_size,
 		.tidy = on_tidy,
