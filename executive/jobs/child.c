@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -62,6 +63,8 @@ static void on_exit_seen(uv_poll_t *poll, int status, int events)
 		         (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec) * 1e-6,
 		.peak_kib = usage.ru_maxrss,
 	};
+	if (w->late)
+		snprintf(e.why, sizeof e.why, "no HELLO within %g s", l->hello_s);
 	l->sink.exited(l->sink.data, w->id, &e);
 }
 
@@ -94,6 +97,7 @@ static void on_readable(uv_poll_t *poll, int status, int events)
 	if (n > 0)
 		message_reader_filled(&w->reader, (size_t)n);
 	while (w->out >= 0 && (next = message_reader_next(&w->reader, &m)) > 0) {
+		w->greeted = true;
 		sink->packet(sink->data, w->id, &m);
 		message_finish(&m);
 	}
@@ -109,6 +113,22 @@ static void on_readable(uv_poll_t *poll, int status, int events)
 	}
 }
 
+/* The time stopped does not count. */
+static void hello_begin(struct worker *w)
+{
+	const struct local *l = w->local;
+	w->hello_ms = l->hello_s > 0 ? uv_now(l->loop) + (uint64_t)(l->hello_s * 1000) : 0;
+}
+
+static void hello_look(struct worker *w)
+{
+	if (w->greeted || w->stopped || w->late || !w->pid || !w->hello_ms ||
+	    uv_now(w->local->loop) < w->hello_ms)
+		return;
+	w->late = true;
+	kill(-w->pid, SIGKILL);
+}
+
 /* libuv does not tell of stops. */
 void child_on_signal(uv_signal_t *signal, int number)
 {
@@ -120,7 +140,9 @@ void child_on_signal(uv_signal_t *signal, int number)
 		while (w->pid &&
 		       !waitid(P_PID, (id_t)w->pid, &si, WSTOPPED | WCONTINUED | WNOHANG) &&
 		       si.si_pid) {
-			l->sink.stopped(l->sink.data, w->id, si.si_code == CLD_STOPPED);
+			w->stopped = si.si_code == CLD_STOPPED;
+			hello_begin(w);
+			l->sink.stopped(l->sink.data, w->id, w->stopped);
 			si = (siginfo_t){ 0 };
 		}
 	}
@@ -133,6 +155,7 @@ void child_on_look(uv_timer_t *timer)
 	struct local *l = timer->data;
 	struct stat s;
 	for (struct worker *w = l->workers; w; w = w->next) {
+		hello_look(w);
 		if (fstat(w->log, &s) || s.st_size <= LOG_MAX || ftruncate(w->log, 0))
 			continue;
 		if (write(w->log, note, sizeof note - 1) < 0)
@@ -151,6 +174,7 @@ void child_listen(struct worker *w)
 	w->n_handles = 2;
 	uv_poll_start(&w->out_poll, UV_READABLE, on_readable);
 	uv_poll_start(&w->pid_poll, UV_READABLE, on_exit_seen);
+	hello_begin(w);
 	w->next = l->workers;
 	l->workers = w;
 	if (!uv_is_active((uv_handle_t *)&l->look))

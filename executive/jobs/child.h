@@ -16,6 +16,8 @@ struct worker {
 	uv_poll_t out_poll, pid_poll;
 	int n_handles; /* still open */
 	bool forgotten;
+	bool greeted, stopped, late; /* late: killed, for it said nothing in time */
+	uint64_t hello_ms;           /* of the loop: until when it must say something; 0: ever */
 	struct message_reader reader;
 	char *job_file; /* owned */
 };
@@ -28,6 +30,7 @@ struct local {
 	char *stub, *host;
 	char *name, *path; /* the worker found last, for the next job of the same */
 	int niceness;
+	double hello_s;     /* that a process has for its first packet, 0: any time */
 	local_words *words; /* NULL: the workers themselves */
 	void *words_data;
 	uv_signal_t child;

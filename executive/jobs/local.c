@@ -266,6 +266,11 @@ void local_wrap(struct local *l, local_words *words, void *data)
 	l->words_data = data;
 }
 
+void local_hello(struct local *l, double seconds)
+{
+	l->hello_s = seconds;
+}
+
 void local_words_free(char **words)
 {
 	for (size_t i = 0; words && words[i]; i++)

@@ -22,6 +22,10 @@ typedef enum status local_words(void *data, const struct Stats *s, const char *w
 void local_wrap(struct local *l, local_words *words, void *data);
 void local_words_free(char **words);
 
+/* Seconds that each process has for its first packet; the queue itself sees only the first of a job that
+ * is cut. 0, as at first: any time. */
+void local_hello(struct local *l, double seconds);
+
 /* The launcher to give to a queue, then the queue's sink to give back. */
 const struct launcher *local_launcher(struct local *l);
 void local_connect(struct local *l, struct launcher_sink sink);

@@ -28,6 +28,7 @@ struct server {
 	uv_pipe_t listener;
 	uv_prepare_t prepare; /* the end of a turn */
 	uv_timer_t deadline, idle, leave;
+	uv_timer_t log; /* looks at the size of the service's own */
 	uv_signal_t interrupt, terminate;
 	struct session *sessions;
 	double idle_s;

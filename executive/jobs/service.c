@@ -20,8 +20,9 @@
 #include "tidy.h"
 
 /* jobs at once at least; milliseconds after which an ending service waits no more */
-/* of a long ledger, after which the lock is touched */
-enum { TOUCH_JOBS = 10000 };
+/* jobs of a long ledger, after which the lock is touched; the service's log is looked at each LOG_MS
+ * and kept below LOG_MAX */
+enum { TOUCH_JOBS = 10000, LOG_MS = 10000, LOG_MAX = 4 << 20, HELLO_MORE_S = 1 };
 enum { JOBS_LEAST = 4, LEAVE_MS = 4500, BACKLOG_CONNECTIONS = 128 };
 
 static double clock_elapsed(void *data)
@@ -127,6 +128,7 @@ static void close_handles(struct server *s)
 	uv_close((uv_handle_t *)&s->deadline, NULL);
 	uv_close((uv_handle_t *)&s->idle, NULL);
 	uv_close((uv_handle_t *)&s->leave, NULL);
+	uv_close((uv_handle_t *)&s->log, NULL);
 	uv_close((uv_handle_t *)&s->interrupt, NULL);
 	uv_close((uv_handle_t *)&s->terminate, NULL);
 	hooks_close(s->hooks);
@@ -172,6 +174,19 @@ static void on_deadline(uv_timer_t *t)
 static void on_idle(uv_timer_t *t)
 {
 	server_leave(t->data);
+}
+
+/* What hooks and the service said, where that goes to a file. */
+static void on_log_look(uv_timer_t *t)
+{
+	static const char note[] = "batten: the log grew beyond 4 MiB, what stood here was cut\n";
+	struct stat s;
+	(void)t;
+	if (fstat(STDERR_FILENO, &s) || !S_ISREG(s.st_mode) || s.st_size <= LOG_MAX ||
+	    ftruncate(STDERR_FILENO, 0))
+		return;
+	if (write(STDERR_FILENO, note, sizeof note - 1) < 0)
+		return; /* a full disk: what is said next is lost as well */
 }
 
 static void on_connection(uv_stream_t *stream, int status)
@@ -278,6 +293,8 @@ static void handles_init(struct server *s)
 	uv_timer_init(&s->loop, &s->deadline);
 	uv_timer_init(&s->loop, &s->idle);
 	uv_timer_init(&s->loop, &s->leave);
+	uv_timer_init(&s->loop, &s->log);
+	uv_timer_start(&s->log, on_log_look, 0, LOG_MS);
 	uv_signal_init(&s->loop, &s->interrupt);
 	uv_signal_init(&s->loop, &s->terminate);
 	s->listener.data = s->prepare.data = s->deadline.data = s->idle.data = s->leave.data =
@@ -349,6 +366,8 @@ static enum status launchers_create(struct server *s, const struct settings *set
 		st = slurm_create(&s->slurm, &s->loop, s->project, settings, r);
 	if (st != ST_OK)
 		return st;
+	/* later than the queue's own limit, which says more */
+	local_hello(s->local, settings_number(settings, SETTING_HELLO_GRACE) + HELLO_MORE_S);
 	crew_add(s->crew, "local", local_launcher(s->local));
 	crew_add(s->crew, "slurm", slurm_launcher(s->slurm));
 	local_connect(s->local, crew_sink(s->crew));

@@ -106,18 +106,52 @@ static char *trim(char *s)
 	return s;
 }
 
+static void cut_comment(char *s)
+{
+	for (char *c = s; *c; c++)
+		if (*c == '#' && (c == s || isspace((unsigned char)c[-1])))
+			*c = '\0';
+}
+
+/* "..." with \" and \\ inside, and nothing but a comment behind it: what stands in it, in place. False
+ * for another value, which is left as it is. */
+static bool unquote(char *s)
+{
+	char *from = s + 1;
+	if (*s != '"')
+		return false;
+	for (; *from && *from != '"'; from++)
+		from += *from == '\\' && from[1];
+	if (!*from)
+		return false;
+	char *behind = from + 1 + strspn(from + 1, " \t\r");
+	if (*behind && *behind != '#')
+		return false;
+	*from = '\0';
+	for (from = s + 1; *from; *s++ = *from++)
+		from += *from == '\\' && from[1];
+	*s = '\0';
+	return true;
+}
+
 /* Split "key = value  # comment"; false for a line that says nothing. *value is NULL without '='. */
 static bool line_split(char *line, char **key, char **value)
 {
-	line[strcspn(line, "#")] = '\0';
-	char *equals = strchr(line, '=');
+	char *equals = line + strcspn(line, "=#");
 	*value = NULL;
-	if (equals) {
+	if (*equals == '=') {
 		*equals = '\0';
-		*value = trim(equals + 1);
+		*value = equals + 1 + strspn(equals + 1, " \t");
+		if (!unquote(*value)) {
+			cut_comment(*value);
+			*value = trim(*value);
+		}
+		*key = trim(line);
+		return true;
 	}
+	cut_comment(line);
 	*key = trim(line);
-	return **key || equals;
+	return **key;
 }
 
 static enum status file_lines(struct settings *s, const char *path, char *text,
@@ -229,6 +263,30 @@ double settings_number(const struct settings *s, enum setting which)
 	return number_parse(s->value[which], &x) ? x : NAN;
 }
 
+/* One that would not be read back as it is stands in quotes. */
+static void add_value(struct text *out, const char *value)
+{
+	size_t n = strlen(value);
+	bool plain =
+	        !strchr(value, '#') && *value != '"' &&
+	        (!n || (!isspace((unsigned char)*value) && !isspace((unsigned char)value[n - 1])));
+	if (plain) {
+		text_add(out, value);
+		return;
+	}
+	text_add(out, "\"");
+	for (const char *c = value; *c; c++)
+		text_addf(out, *c == '"' || *c == '\\' ? "\\%c" : "%c", *c);
+	text_add(out, "\"");
+}
+
+static void add_line(struct text *out, const char *key, const char *value)
+{
+	text_addf(out, "%s = ", key);
+	add_value(out, value);
+	text_add(out, "\n");
+}
+
 /* The old text with the line of that key replaced, or a line added. Comments behind it go. */
 static enum status text_with(struct text *out, char *old, const char *key, const char *value)
 {
@@ -246,11 +304,11 @@ static enum status text_with(struct text *out, char *old, const char *key, const
 		if (!same)
 			text_addf(out, "%s\n", line);
 		else if (!written)
-			text_addf(out, "%s = %s\n", key, value);
+			add_line(out, key, value);
 		written |= same;
 	}
 	if (!written)
-		text_addf(out, "%s = %s\n", key, value);
+		add_line(out, key, value);
 	return out->failed ? ST_RESOURCE : ST_OK;
 }
 
@@ -264,6 +322,8 @@ enum status settings_write(const struct project *p, bool user, const char *key, 
 	if (which < 0)
 		return report_error(r, ST_PARAMETER,
 		                    "there is no setting '%s'; 'batten config' lists them", key);
+	if (strpbrk(value, "\n\r"))
+		return report_error(r, ST_PARAMETER, "cannot set %s: a setting is one line", key);
 	enum status st = value_check(which, value, "cannot set it", r);
 	if (st != ST_OK)
 		return st;

@@ -1,5 +1,6 @@
 /* settings.h - the settings: one table; from $XDG_CONFIG_HOME/batten/config, then .batten/config,
- * then the environment (BATTEN_KEY), later ones win. Lines are `key = value`, # begins a comment. */
+ * then the environment (BATTEN_KEY), later ones win. Lines are `key = value`; # at the beginning or behind a blank begins a comment; a value in "..." is
+ * taken as it stands, with \" and \\ for those two. */
 #ifndef BATTEN_SETTINGS_H
 #define BATTEN_SETTINGS_H
 

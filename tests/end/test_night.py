@@ -1,5 +1,6 @@
 """What a long night of jobs wants: a hook at the ends, limits, dependencies, the top, a unit for systemd."""
 import os
+import pty
 
 import end
 
@@ -20,6 +21,44 @@ def test_the_hook_runs_at_the_end_of_each_job_and_of_the_group(project):
     project.run("batten", "wait", *ids)
     wanted = {f"job {ids[0]} done g", f"job {ids[1]} done g", f"group {ids[1]} done g"}
     end.until(lambda: wanted <= set(lines(said)), "the hooks ran")  # several at once: in any order
+
+
+def test_what_hooks_say_fills_no_disk(project):
+    """The service's log is cut where it grows too large, whoever writes it."""
+    project.run("batten", "config", "hook", "head -c 6000000 /dev/zero | tr '\\0' x >&2; echo '#' >hooked")
+    (job,) = project.submit("shading", TORUS, "--size", "16x16", "-o", "a")
+    end.until(lambda: lines(project.path("hooked")) == ["#"], "the hook ran, with all its words")
+    log = project.path(".batten", "logs", "service.log")
+    end.until(lambda: os.path.getsize(log) < 1000, "the log is cut")
+    assert "what stood here was cut" in open(log).read()
+
+
+def on_a_terminal(project, *words):
+    """What a verb writes when both its ends are a terminal."""
+    leader, follower = pty.openpty()
+    process = project.start(*words, stdout=follower, stderr=follower)
+    os.close(follower)
+    said = b""
+    while True:
+        try:
+            piece = os.read(leader, 4096)
+        except OSError:  # EIO: the terminal has no other end any more
+            piece = b""
+        if not piece:
+            break
+        said += piece
+    os.close(leader)
+    assert process.wait(end.GUARD_S) == 0, said
+    return said
+
+
+def test_the_bell_rings_at_the_end(project):
+    run = ("batten", "run", "shading", TORUS, "--size", "16x16", "-o", "a", "--force")
+    assert b"\a" not in on_a_terminal(project, *run)
+    project.run("batten", "config", "bell", "on")
+    assert on_a_terminal(project, *run).count(b"\a") == 1
+    assert on_a_terminal(project, "batten", "wait").count(b"\a") == 1
+    assert "\a" not in project.run(*run).stderr
 
 
 def test_a_job_over_its_wall_time_fails(project):

@@ -184,6 +184,54 @@ static void a_socket_folder_that_others_may_enter_is_refused(void **state)
 	free(folder);
 }
 
+static void any_line_of_text_is_read_back(void **state)
+{
+	static const char *const values[] = {
+		"echo #1",
+		"a#b",
+		"#",
+		"\"quoted\"",
+		"\"my program\" arg",
+		"\"half",
+		"back\\slash",
+		" blanks ",
+		"say \"#\"",
+		"\\\" # \\",
+		"x = y",
+		"",
+	};
+	struct here *h = *state;
+	for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+		struct settings s;
+		assert_int_equal(settings_write(&h->project, false, "hook", values[i], NULL),
+		                 ST_OK);
+		assert_int_equal(settings_read(&s, &h->project, NULL), ST_OK);
+		assert_string_equal(s.value[SETTING_HOOK], values[i]);
+		settings_finish(&s);
+	}
+	assert_int_equal(settings_write(&h->project, false, "hook", "two\nlines", NULL),
+	                 ST_PARAMETER);
+}
+
+static void comments_begin_behind_a_blank(void **state)
+{
+	static const struct {
+		const char *line, *value;
+	} rows[] = {
+		{ "hook = run a#b # c", "run a#b" },     { "hook = # c", "" },
+		{ "hook = \"a # b\" # c", "a # b" },     { "hook=\"a\" b # c", "\"a\" b" },
+		{ "  # hook = a\nhook = b\t#c\n", "b" }, { "hook = \"a\\\\\" ", "a\\" },
+	};
+	struct here *h = *state;
+	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+		struct settings s;
+		write_file(h, ".batten/config", rows[i].line);
+		assert_int_equal(settings_read(&s, &h->project, NULL), ST_OK);
+		assert_string_equal(s.value[SETTING_HOOK], rows[i].value);
+		settings_finish(&s);
+	}
+}
+
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
 int main(void)
@@ -192,6 +240,8 @@ int main(void)
 		T(later_ones_win),
 		T(wrong_ones_are_named_with_their_line),
 		T(writing_keeps_the_other_lines),
+		T(any_line_of_text_is_read_back),
+		T(comments_begin_behind_a_blank),
 		T(project_is_the_nearest_above),
 		T(a_socket_folder_that_others_may_enter_is_refused),
 	};
