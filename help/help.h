@@ -69,7 +69,7 @@ struct help_hit {
 size_t help_search(const struct help *h, const struct menu_set *menus, const char *words,
                    struct help_hit *hits, size_t max);
 
-/* A text for a terminal, lines of at most `width` columns. Caller frees; NULL: memory ran out. */
-char *help_print(const struct help_text *t, int width);
+/* A text of h for a terminal, lines of at most `width` columns. Caller frees; NULL: memory ran out. */
+char *help_print(const struct help *h, const struct help_text *t, int width);
 
 #endif

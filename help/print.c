@@ -74,7 +74,20 @@ static void print_arguments(struct text *out, const struct help_text *t, int wid
 	}
 }
 
-char *help_print(const struct help_text *t, int width)
+static void print_see(struct text *out, const struct help *h, const char *see)
+{
+	while (*(see += strspn(see, " "))) {
+		size_t n = strcspn(see, " ");
+		char code[8] = "";
+
+		memcpy(code, see, n < sizeof code ? n : sizeof code - 1);
+		const struct help_text *t = help_find(h, code);
+		text_addf(out, "  %-5s %s\n", code, t ? t->title : "");
+		see += n;
+	}
+}
+
+char *help_print(const struct help *h, const struct help_text *t, int width)
 {
 	struct text out = { 0 };
 
@@ -94,7 +107,7 @@ char *help_print(const struct help_text *t, int width)
 	}
 	if (*t->see) {
 		text_add(&out, "\nSee also\n");
-		fill(&out, t->see, 2, 0, width);
+		print_see(&out, h, t->see);
 	}
 	return text_take(&out);
 }

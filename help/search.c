@@ -10,10 +10,12 @@ enum { WORDS_MAX = 16, WORD_MAX = 48 };
 
 /* What a word found there is worth. A name is what a user reads in the menu, so it counts most. */
 enum {
-	SCORE_CODE = 4000,
-	SCORE_WHOLE = 1000, /* the name is the word, and nothing else */
+	SCORE_CODE = 10000,
+	SCORE_WHOLE_TITLE = 600, /* the title is the word, and nothing else */
+	SCORE_WHOLE_NAME = 300,  /* many entries are called COLOR or RUN: not enough by itself */
 	SCORE_NAME = 240,
 	SCORE_TITLE = 200,
+	SCORE_WHOLE_PATH = 120, /* a menu above is called so */
 	SCORE_PATH = 60,
 	SCORE_ARGUMENT = 40,
 	SCORE_PURPOSE = 20,
@@ -37,40 +39,39 @@ static int found(const char *s, const char *word, int score)
 	return best;
 }
 
-static int larger(int a, int b)
+static int found_name(const char *s, const char *word, int whole, int score)
 {
-	return a > b ? a : b;
+	return strcasecmp(s, word) ? found(s, word, score) : whole;
 }
 
 static int score_names(const struct help_text *t, const struct menu_set *menus, const char *word)
 {
-	int best = found(t->title, word, SCORE_TITLE);
 	const struct Menu_Entry *e = menus ? menu_set_find(menus, t->code, NULL) : NULL;
+	int sum = strcasecmp(t->code, word) ? 0 : SCORE_CODE, best = 0;
 
-	if (!strcasecmp(t->code, word))
-		return SCORE_CODE;
-	if (!strcasecmp(t->title, word) || (e && !strcasecmp(e->name, word)))
-		return SCORE_WHOLE;
+	sum += found_name(t->title, word, SCORE_WHOLE_TITLE, SCORE_TITLE);
 	if (!e)
-		return best;
-	best = larger(best, found(e->name, word, SCORE_NAME));
-	for (e = e->parent; e; e = e->parent)
-		best = larger(best, found(e->name, word, SCORE_PATH));
-	return best;
+		return sum;
+	sum += found_name(e->name, word, SCORE_WHOLE_NAME, SCORE_NAME);
+	for (e = e->parent; e; e = e->parent) {
+		int here = found_name(e->name, word, SCORE_WHOLE_PATH, SCORE_PATH);
+		best = here > best ? here : best;
+	}
+	return sum + best;
 }
 
 static int score_word(const struct help_text *t, const struct menu_set *menus, const char *word)
 {
-	int best = score_names(t, menus, word);
+	int sum = score_names(t, menus, word) + found(t->purpose, word, SCORE_PURPOSE) +
+	          found(t->result, word, SCORE_REST) + found(t->example, word, SCORE_REST);
+	int best = 0;
 
-	best = larger(best, found(t->purpose, word, SCORE_PURPOSE));
-	best = larger(best, found(t->result, word, SCORE_REST));
-	best = larger(best, found(t->example, word, SCORE_REST));
 	for (int k = 0; k < t->n_arguments; k++) {
-		best = larger(best, found(t->arguments[k].name, word, SCORE_ARGUMENT));
-		best = larger(best, found(t->arguments[k].meaning, word, SCORE_REST));
+		int name = found(t->arguments[k].name, word, SCORE_ARGUMENT);
+		int here = name ? name : found(t->arguments[k].meaning, word, SCORE_REST);
+		best = here > best ? here : best;
 	}
-	return best;
+	return sum + best;
 }
 
 static int split(const char *words, char out[WORDS_MAX][WORD_MAX])

@@ -1,11 +1,13 @@
-/* help.c - help of a verb, a worker or a topic. */
+/* help.c - help of a verb, a worker, a topic, or a routine of the editor. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
+#include "help_routines.h"
 #include "json.h"
 #include "roster.h"
 #include "stats.h"
+#include "text.h"
 #include "verbs.h"
 
 static const struct topic {
@@ -76,20 +78,19 @@ static void print_worker(const json_t *d)
 	}
 }
 
-/* A worker's description as help; false where there is no such worker. */
-static bool help_worker(const char *name, const struct report *r)
+/* A worker's description; NULL where there is no such worker. */
+static json_t *find_worker(const char *name, const struct report *r)
 {
 	struct project p;
 	struct roster roster = { 0 };
-	bool found = false;
+	json_t *found = NULL;
 
 	if (project_find(&p, NULL, r) != ST_OK)
-		return false;
+		return NULL;
 	if (roster_read(&roster, &p, name, r) == ST_OK) {
 		const struct roster_worker *w = roster_find(&roster, name);
-		found = w && !w->broken;
-		if (found)
-			print_worker(w->description);
+		if (w && !w->broken)
+			found = json_incref(w->description);
 	}
 	roster_finish(&roster);
 	project_finish(&p);
@@ -116,8 +117,31 @@ static int list_all(bool json)
 	printf("topics: %s", states_topic);
 	for (int k = 0; k < N_TOPICS; k++)
 		printf(" %s", topics[k].name);
-	puts("; and every worker's name (batten workers)");
+	puts("; every worker's name (batten workers); and V79, N31, or any word: the routines of the editor");
 	return 0;
+}
+
+/* A worker, then the routines in which the words occur. */
+static int help_on(const struct invocation *i)
+{
+	struct text words = { 0 };
+	size_t n_found = 0;
+	json_t *worker = i->n_words == 1 ? find_worker(i->words[0], &i->report) : NULL;
+
+	for (int k = 0; k < i->n_words; k++)
+		text_addf(&words, "%s%s", k ? " " : "", i->words[k]);
+	char *s = text_take(&words);
+	if (worker && !i->json)
+		print_worker(worker);
+	int status = s ? help_words(s, worker, i->json, &n_found, &i->report)
+	               : status_exit(report_error(&i->report, ST_RESOURCE, "memory ran out"));
+	if (!status && !n_found && !worker)
+		status = status_exit(
+		        report_error(&i->report, ST_PARAMETER,
+		                     "there is no help on '%s'; batten help lists the topics", s));
+	free(s);
+	json_decref(worker);
+	return status;
 }
 
 static int help_run(const struct invocation *i)
@@ -139,17 +163,17 @@ static int help_run(const struct invocation *i)
 			puts(topics[k].text);
 			return 0;
 		}
-	if (help_worker(topic, &i->report))
-		return 0;
-	return status_exit(report_error(&i->report, ST_PARAMETER,
-	                                "there is no help on '%s'; batten help lists the topics",
-	                                topic));
+	if (i->n_words == 1 && is_routine_code(topic))
+		return help_code(topic, i->json, &i->report);
+	return help_on(i);
 }
 
 const struct command command_help_verb = {
 	.name = "help",
-	.usage = "[VERB|WORKER|TOPIC]",
-	.text = "explain a verb, a worker or a topic",
+	.usage = "[VERB|WORKER|TOPIC|CODE|WORD...]",
+	.text = "explain a verb, a worker, a topic or a routine",
+	.help = "CODE is the index of a routine or a menu of the editor: V79, N31. Other words are looked for\n"
+	        "in all texts; routines in which each of them occurs are listed, best first.",
 	.first_word = WORD_TOPIC,
 	.run = help_run,
 };
