@@ -23,6 +23,7 @@ const struct command *const command_table[] = {
 	&command_priority,
 	&command_prune,
 	&command_release,
+	&command_render,
 	&command_retry,
 	&command_run,
 	&command_serve,

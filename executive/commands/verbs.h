@@ -19,6 +19,7 @@ extern const struct command command_log;
 extern const struct command command_priority;
 extern const struct command command_prune;
 extern const struct command command_release;
+extern const struct command command_render;
 extern const struct command command_retry;
 extern const struct command command_run;
 extern const struct command command_serve;

@@ -1,4 +1,4 @@
-/* picture.h - pictures with Cairo and Pango: PNG of images and maps with their key, SVG of curves.
+/* picture.h - pictures with Cairo and Pango: PNG of images and maps with their key, SVG and PDF of curves.
  *
  * Same input, same bytes. Files are written under the path given, whatever its ending: give a
  * temporary name. On failure nothing is left there.
@@ -59,7 +59,7 @@ struct picture_lines {
 	const char *title, *note; /* may be NULL */
 };
 
-enum picture_format { PICTURE_PNG, PICTURE_SVG };
+enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF };
 enum status picture_lines(const char *path, enum picture_format format,
                           const struct picture_lines *lines, enum theme theme,
                           const struct report *r);

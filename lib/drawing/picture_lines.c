@@ -1,5 +1,8 @@
-/* picture_lines.c - wire frames and curves, as PNG or SVG. */
+/* picture_lines.c - wire frames and curves, as PNG, SVG or PDF. */
 #include <math.h>
+#include <unistd.h>
+
+#include <cairo-pdf.h>
 
 #include "picture.h"
 #include "scene_lines.h"
@@ -52,6 +55,29 @@ static void draw(struct sheet *sheet, const struct scene_lines *s)
 	}
 }
 
+/* A point for a px. Its dates would differ from time to time: one is set. */
+static enum status write_pdf(const struct scene_lines *scene, const char *path,
+                             const struct report *r)
+{
+	struct sheet s = { .width = scene->width, .height = scene->height };
+	s.surface = cairo_pdf_surface_create(path, scene->width, scene->height);
+	cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_CREATE_DATE,
+	                               "2000-01-01T00:00:00Z");
+	s.cr = cairo_create(s.surface);
+	draw(&s, scene);
+	cairo_show_page(s.cr);
+	cairo_status_t drawn = cairo_status(s.cr);
+	cairo_surface_finish(s.surface);
+	if (!drawn)
+		drawn = cairo_surface_status(s.surface);
+	sheet_finish(&s);
+	if (!drawn)
+		return ST_OK;
+	unlink(path);
+	return report_error(r, ST_RESOURCE, "cannot write '%s': %s; make room and try again", path,
+	                    cairo_status_to_string(drawn));
+}
+
 enum status picture_lines(const char *path, enum picture_format format,
                           const struct picture_lines *lines, enum theme theme,
                           const struct report *r)
@@ -71,6 +97,8 @@ enum status picture_lines(const char *path, enum picture_format format,
 	if (png) {
 		draw(&sheet, &scene);
 		st = sheet_write(&sheet, path, r);
+	} else if (format == PICTURE_PDF) {
+		st = write_pdf(&scene, path, r);
 	} else {
 		st = svg_write(&scene, path, r);
 	}

@@ -20,7 +20,7 @@ static struct vec3 normals[6] = { { 0, 0, 1 }, { 0, 0, 1 }, { 0, 0, 1 },
 static struct mesh_corner triangles[2][3] = { { { 0, 0 }, { 1, 1 }, { 2, 2 } },
 	                                      { { 1, 3 }, { 3, 4 }, { 2, 5 } } };
 static struct mesh_part parts[2] = { { 0, 1 }, { 1, 1 } };
-static const struct mesh roof = { points, normals, triangles, 4, 6, 2, parts, 2 };
+static const struct mesh roof = { points, normals, triangles, NULL, 4, 6, 2, parts, 2 };
 static const char *const names[2] = { "left side", NULL };
 
 typedef enum status writer(const struct mesh *m, const struct mesh_labels *l, const char *path,

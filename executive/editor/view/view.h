@@ -2,7 +2,7 @@
 #ifndef BATTEN_VIEW_H
 #define BATTEN_VIEW_H
 
-#include "theme.h"
+#include "key.h"
 #include "world.h"
 
 enum view_standard {
@@ -25,6 +25,11 @@ struct view_state {
 	int quantity; /* enum quantity for LOOK_MAP, -1: as the overlay says */
 	bool axes;    /* small cross of axes in the corner */
 	int hover_thing, hover_point; /* id and index of the control point under the mouse; 0, -1 */
+	int chosen;        /* id of the surface whose borders are drawn as chosen, 0: none */
+	bool light;        /* the sun and its ray are drawn: the light is being set */
+	struct mark probe; /* drawn with its circles; thing 0: none */
+	struct vec3 pivot; /* about which it is being turned: view_rotate's own */
+	bool has_pivot;    /* false at the start of a drag */
 };
 
 struct view; /* opaque; GL objects and tessellations, cached by id and revision */
@@ -39,12 +44,21 @@ void view_destroy(struct view *v);
 enum status view_draw(struct view *v, const struct world *w, const struct view_state *s, int x,
                       int y, int width, int height, bool *more, const struct report *r);
 
-/* Cameras. Angles in degrees; px logical, (0, 0) the upper left corner of the view. */
+/* The key of the map that was drawn last; false: there was none. Its unit and bar are the caller's. */
+bool view_key(const struct view *v, struct key *out);
+
+/* Cameras. Angles in degrees; px logical, (0, 0) the upper left corner of the view. The camera's width
+ * and height are the view's in logical px: the window keeps them so when the view's size changes.
+ * view_fit: view as camera_fit takes it, NULL: from where it is seen now.
+ * view_rotate: about the middle of what is seen, z stays upright; dx > 0 turns what is near to the right,
+ * dy > 0 down. */
 enum status view_fit(struct view_state *s, const struct world *w, const char *view, int width,
                      int height, const struct report *r);
 void view_rotate(struct view_state *s, const struct world *w, double dx, double dy);
 void view_pan(struct view_state *s, double dx, double dy);
 void view_zoom(struct view_state *s, const struct world *w, double factor, double x, double y);
+/* The other projection, with what is in the middle as large as before. */
+void view_project(struct view_state *s, const struct world *w, enum camera_kind kind);
 
 /* What lies under a place. */
 struct pick {
@@ -64,8 +78,24 @@ struct offscreen;
 enum status offscreen_create(struct offscreen **out, const struct report *r);
 void offscreen_destroy(struct offscreen *o);
 
-/* The world as a picture with key and title: .png by GL with multisampling, .svg and .pdf for lines.
- * view as camera_fit takes it; NULL: the sight's camera, else three-quarter. */
+/* How a picture is made; zeroed but for the size: three-quarter view, light theme, scale 1. */
+struct render_options {
+	const char *view; /* as camera_fit takes it; NULL: the sight's camera, else three-quarter */
+	int width, height; /* px of the picture */
+	enum theme theme;
+	double scale;      /* px a logical px, of texts and line widths; 0: 1 */
+	bool has_quantity; /* for LOOK_MAP, instead of the overlays' */
+	enum quantity quantity;
+	const char *title; /* NULL: what is shown, in words */
+};
+
+/*
+ * The world as a picture with key and title: .png by GL with multisampling, .svg and .pdf for lines.
+ * The file appears whole or not at all. Same world, same bytes (of PNG: by the same GL driver).
+ * Errors: ST_PARAMETER (extension, view), ST_INPUT (folder), ST_RESOURCE (no GL, full disk).
+ */
+enum status render_write(const struct world *w, const char *path, const struct render_options *o,
+                         const struct report *r);
 enum status render_picture(const struct world *w, const char *path, const char *view, int width,
                            int height, enum theme theme, const struct report *r);
 

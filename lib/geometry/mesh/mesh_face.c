@@ -2,6 +2,7 @@
 #include "mesh_face.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "curvature.h"
 
@@ -183,10 +184,12 @@ static struct vec3 normal_inside(struct mesh_face *f, const int v[3], int k, int
 static enum status emit(struct mesh_face *f, const int v[3])
 {
 	struct mesh_corner corner[3];
-	double center[2];
+	double center[2], uv[3][2];
 	enum status st = ST_OK;
-	for (int k = 0; k < 3; k++)
+	for (int k = 0; k < 3; k++) {
 		corner[k].point = f->places[v[k]].point;
+		memcpy(uv[k], f->places[v[k]].uv, sizeof uv[k]);
+	}
 	/* at a pole two corners are one point */
 	if (corner[0].point == corner[1].point || corner[1].point == corner[2].point ||
 	    corner[2].point == corner[0].point)
@@ -201,7 +204,7 @@ static enum status emit(struct mesh_face *f, const int v[3])
 			n = normal_inside(f, v, k, patch);
 		st = mesh_add_normal(f->b, corner[k].point, n, &corner[k].normal);
 	}
-	return st == ST_OK ? mesh_add_triangle(f->b, corner) : st;
+	return st == ST_OK ? mesh_add_triangle(f->b, corner, (const double(*)[2])uv) : st;
 }
 
 enum status mesh_fill(struct mesh_build *b, int face, int first_loop, int n_loops)

@@ -59,7 +59,7 @@ struct mesh_build {
 	const atomic_bool *stop;
 	const struct report *r;
 	struct mesh *out;
-	int points_room, normals_room, triangles_room, heads_room;
+	int points_room, normals_room, triangles_room, heads_room, parameters_room;
 	int *heads;       /* owned; of each point its first normal, -1: none; then next_normal */
 	int *next_normal; /* owned */
 	int next_room;
@@ -77,7 +77,8 @@ enum status mesh_grow(void **p, int *room, int n, size_t size);
 enum status mesh_add_point(struct mesh_build *b, struct vec3 p, int *point);
 /* The normal at that point, one of those there if it is the same. */
 enum status mesh_add_normal(struct mesh_build *b, int point, struct vec3 normal, int *out);
-enum status mesh_add_triangle(struct mesh_build *b, const struct mesh_corner corner[3]);
+enum status mesh_add_triangle(struct mesh_build *b, const struct mesh_corner corner[3],
+                              const double uv[3][2]);
 
 /* mesh_patch.c: creases part a surface into smooth patches. */
 enum status mesh_find_creases(struct mesh_creases *c, const struct surface *s);

@@ -17,6 +17,7 @@ void mesh_finish(struct mesh *m)
 	free(m->points);
 	free(m->normals);
 	free(m->triangles);
+	free(m->parameters);
 	free(m->parts);
 	*m = (struct mesh){ 0 };
 }
@@ -73,11 +74,18 @@ enum status mesh_add_normal(struct mesh_build *b, int point, struct vec3 normal,
 	return ST_OK;
 }
 
-enum status mesh_add_triangle(struct mesh_build *b, const struct mesh_corner corner[3])
+enum status mesh_add_triangle(struct mesh_build *b, const struct mesh_corner corner[3],
+                              const double uv[3][2])
 {
 	struct mesh *m = b->out;
 	enum status st = mesh_grow((void **)&m->triangles, &b->triangles_room, m->n_triangles + 1,
 	                           sizeof *m->triangles);
+	if (st == ST_OK && b->limits->parameters) {
+		st = mesh_grow((void **)&m->parameters, &b->parameters_room, m->n_triangles + 1,
+		               sizeof *m->parameters);
+		if (st == ST_OK)
+			memcpy(m->parameters[m->n_triangles], uv, sizeof *m->parameters);
+	}
 	if (st == ST_OK)
 		memcpy(m->triangles[m->n_triangles++], corner, sizeof *m->triangles);
 	return st;

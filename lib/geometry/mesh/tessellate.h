@@ -21,6 +21,7 @@ struct mesh {
 	struct vec3 *points;  /* owned; each place once: faces that join share them */
 	struct vec3 *normals; /* owned; of the surface, unit; sharp edges have several at a point */
 	struct mesh_corner (*triangles)[3]; /* owned; counterclockwise about Su x Sv */
+	double (*parameters)[3][2]; /* owned; u, v of the corners in their face, where asked for */
 	int n_points, n_normals, n_triangles;
 	struct mesh_part *parts; /* owned, one a face */
 	int n_parts;
@@ -38,9 +39,10 @@ struct tessellate_face {
 };
 
 struct tessellate_limits {
-	double chord; /* largest distance between surface and triangles, > 0; file units */
-	double angle; /* largest angle between normals at the ends of an edge, > 0; radians */
-	double join;  /* borders nearer than this are one, >= 0; file units */
+	double chord;    /* largest distance between surface and triangles, > 0; file units */
+	double angle;    /* largest angle between normals at the ends of an edge, > 0; radians */
+	double join;     /* borders nearer than this are one, >= 0; file units */
+	bool parameters; /* the corners' u, v too */
 };
 
 /*

@@ -1,0 +1,25 @@
+/* main.c - the program batten-editor: one mode a way to start it. */
+#include <stdio.h>
+#include <string.h>
+
+#include "modes.h"
+
+static const struct mode {
+	const char *name;
+	int (*run)(int argc, char **argv); /* what stands behind the name; exit status */
+} modes[] = {
+	{ "--render", mode_render },
+};
+enum { N_MODES = sizeof modes / sizeof *modes };
+
+int main(int argc, char **argv)
+{
+	for (int k = 0; k < N_MODES; k++)
+		if (argc > 1 && !strcmp(argv[1], modes[k].name))
+			return modes[k].run(argc - 2, argv + 2);
+	fprintf(stderr, "batten-editor: expected a mode:");
+	for (int k = 0; k < N_MODES; k++)
+		fprintf(stderr, " %s", modes[k].name);
+	fprintf(stderr, "; it is started by batten\n");
+	return 2;
+}

@@ -1,0 +1,283 @@
+/* frame.c - one drawing of the world: camera, order, targets. */
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "view_private.h"
+
+enum { SAMPLES = 4 };
+
+bool file_stamp(const char *path, int64_t stamp[3])
+{
+	struct stat s;
+	if (stat(path, &s) < 0)
+		return false;
+	stamp[0] = (int64_t)s.st_mtim.tv_sec * 1000000000 + s.st_mtim.tv_nsec;
+	stamp[1] = (int64_t)s.st_size;
+	stamp[2] = (int64_t)s.st_ino;
+	return true;
+}
+
+enum status view_create(struct view **out, const struct report *r)
+{
+	const int version = epoxy_gl_version();
+	if (!epoxy_is_desktop_gl() || version < 33)
+		return report_error(r, ST_RESOURCE,
+		                    "cannot draw: found OpenGL%s %d.%d, 3.3 is needed; update the "
+		                    "graphics driver or set LIBGL_ALWAYS_SOFTWARE=1",
+		                    epoxy_is_desktop_gl() ? "" : " ES", version / 10, version % 10);
+	struct view *v = calloc(1, sizeof *v);
+	if (!v)
+		return report_error(r, ST_RESOURCE, "cannot draw: memory ran out");
+	enum status st = programs_init(&v->programs, r);
+	if (st != ST_OK) {
+		free(v);
+		return st;
+	}
+	glGenVertexArrays(1, &v->empty);
+	*out = v;
+	return ST_OK;
+}
+
+void view_destroy(struct view *v)
+{
+	if (!v)
+		return;
+	programs_finish(&v->programs);
+	target_finish(&v->fine);
+	target_finish(&v->plain);
+	shapes_finish(&v->shapes);
+	maps_finish(v);
+	results_finish(v);
+	images_finish(v);
+	texts_finish(v);
+	gpu_poly_finish(&v->scratch);
+	poly_finish(&v->scratch_poly);
+	glDeleteVertexArrays(1, &v->empty);
+	glDeleteTextures(1, &v->colors);
+	free(v);
+}
+
+static bool is_shown(const struct drawing *d, const struct Ful *f)
+{
+	return d->state->only ? f->id == d->state->only : f->display.on;
+}
+
+static enum status find_shown(struct drawing *d)
+{
+	const int n = world_count(d->world);
+	d->shown = calloc((size_t)n + 1, sizeof *d->shown);
+	d->things = calloc((size_t)n + 1, sizeof *d->things);
+	if (!d->shown || !d->things)
+		return ST_RESOURCE;
+	for (int k = 0; k < n; k++) {
+		const struct Ful *f = world_at(d->world, k);
+		struct shape *x = shapes_find(&d->view->shapes, f->id);
+		if (!x || !is_shown(d, f) || box_is_empty(&x->box))
+			continue;
+		d->things[d->n_shown] = f;
+		d->shown[d->n_shown++] = x;
+		box_add_box(&d->box, &x->box);
+	}
+	return ST_OK;
+}
+
+/* Depths that everything lies between, with room for combs and marks. */
+static void find_planes(struct drawing *d)
+{
+	const struct camera *c = &d->camera;
+	const double size = fmax(box_diagonal(&d->box), 1e-30);
+	double near = INFINITY, far = -INFINITY;
+	for (int i = 0; i < 8; i++) {
+		struct vec3 p =
+		        vec3(i & 1 ? d->box.hi.x : d->box.lo.x, i & 2 ? d->box.hi.y : d->box.lo.y,
+		             i & 4 ? d->box.hi.z : d->box.lo.z);
+		double z = vec3_dot(vec3_sub(p, c->eye), c->ahead);
+		near = fmin(near, z);
+		far = fmax(far, z);
+	}
+	d->near = near - 0.5 * size;
+	d->far = far + 0.5 * size;
+	if (c->kind == CAMERA_PERSPECTIVE) {
+		d->far = fmax(d->far, 1e-3 * size);
+		/* 24 bits of depth tell a thousandth of a pixel at this */
+		d->near = fmax(d->near, 1e-4 * d->far);
+	}
+}
+
+static void find_matrix(struct drawing *d)
+{
+	const struct camera *c = &d->camera;
+	const double smaller = c->width < c->height ? c->width : c->height;
+	const double sx = smaller / (c->half * c->width), sy = smaller / (c->half * c->height);
+	const double n = d->near, f = d->far;
+	const struct vec3 axis[3] = { c->right, c->up, c->ahead };
+	double view[3][4], *m = d->frame.matrix;
+	for (int k = 0; k < 3; k++) {
+		view[k][0] = axis[k].x;
+		view[k][1] = axis[k].y;
+		view[k][2] = axis[k].z;
+		view[k][3] = -vec3_dot(axis[k], c->eye);
+	}
+	const bool flat = c->kind == CAMERA_ORTHOGRAPHIC;
+	for (int k = 0; k < 4; k++) {
+		const double one = k == 3;
+		m[4 * k] = sx * view[0][k];
+		m[4 * k + 1] = sy * view[1][k];
+		m[4 * k + 2] = flat ? (2 * view[2][k] - (n + f) * one) / (f - n)
+		                    : ((f + n) * view[2][k] - 2 * f * n * one) / (f - n);
+		m[4 * k + 3] = flat ? one : view[2][k];
+	}
+	/* depth of a length of one pixel, at the middle of what is seen */
+	struct vec3 middle = box_is_empty(&d->box) ? c->eye : box_center(&d->box);
+	double z = fmax(vec3_dot(vec3_sub(middle, c->eye), c->ahead), n);
+	double pixel = 2 * c->half / smaller * (flat ? 1 : z);
+	d->frame.pixel_depth = flat ? 2 * pixel / (f - n) : 2 * f * n / (f - n) / (z * z) * pixel;
+}
+
+static void find_light(struct drawing *d)
+{
+	const struct camera *c = &d->camera;
+	const struct sight *s = world_sight((struct world *)d->world);
+	const double a = s->light_azimuth * M_PI / 180, i = s->light_incidence * M_PI / 180;
+	d->light = vec3(sin(i) * cos(a), sin(i) * sin(a), cos(i));
+	struct vec3 shoulder = vec3_scale(c->ahead, -0.72);
+	shoulder = vec3_along(shoulder, 0.62, c->up);
+	d->fill = vec3_unit(vec3_along(shoulder, -0.5, c->right));
+	d->sky = vec3_unit(vec3_add(c->up, vec3(0, 0, 1)));
+	if (!(vec3_length(d->sky) > 0))
+		d->sky = c->up;
+}
+
+/* Luminance as light, of sRGB. */
+static double luminance(struct rgb c)
+{
+	return 0.2126 * rgb_to_linear(c.r) + 0.7152 * rgb_to_linear(c.g) +
+	       0.0722 * rgb_to_linear(c.b);
+}
+
+enum theme ground_theme(struct rgb ground)
+{
+	/* equal contrast with white and black lies at 0.18 */
+	return luminance(ground) > 0.18 ? THEME_LIGHT : THEME_DARK;
+}
+
+static void find_ground(struct drawing *d)
+{
+	const struct sight *s = world_sight((struct world *)d->world);
+	d->set = d->state->theme;
+	d->ground = theme_color(d->state->theme, TOKEN_VIEW);
+	if (s->has_background) {
+		d->ground = s->background;
+		d->set = ground_theme(d->ground);
+	}
+}
+
+enum status drawing_init(struct drawing *d, struct view *v, const struct world *w,
+                         const struct view_state *s, int width, int height, const struct report *r)
+{
+	*d = (struct drawing){ .view = v,
+		               .world = w,
+		               .state = s,
+		               .camera = s->camera,
+		               .box = box_empty(),
+		               .report = r };
+	d->camera.width = width;
+	d->camera.height = height;
+	d->frame = (struct gpu_frame){ .programs = &v->programs,
+		                       .width = width,
+		                       .height = height,
+		                       .scale = s->scale > 0 ? s->scale : 1 };
+	enum status st = shapes_update(&v->shapes, w);
+	if (st == ST_OK)
+		st = find_shown(d);
+	if (st != ST_OK) {
+		drawing_finish(d);
+		return report_error(r, st, "cannot draw: memory ran out");
+	}
+	if (box_is_empty(&d->box))
+		box_add_point(&d->box, vec3(0, 0, 0));
+	find_planes(d);
+	find_matrix(d);
+	find_light(d);
+	find_ground(d);
+	return ST_OK;
+}
+
+void drawing_finish(struct drawing *d)
+{
+	free((void *)d->shown);
+	free((void *)d->things);
+	d->shown = NULL;
+	d->things = NULL;
+}
+
+static enum status draw_all(struct drawing *d)
+{
+	glViewport(0, 0, d->camera.width, d->camera.height);
+	glDisable(GL_SCISSOR_TEST);
+	glDepthMask(GL_TRUE);
+	glClearColor((float)d->ground.r, (float)d->ground.g, (float)d->ground.b, 1);
+	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+	texts_begin(d->view);
+	enum status st = ST_OK;
+	if (!images_draw(d)) {
+		st = maps_update(d);
+		if (st == ST_OK)
+			st = scene_draw(d);
+		if (st == ST_OK)
+			marks_draw(d);
+		if (st == ST_OK && d->state->axes)
+			axes_draw(d);
+	}
+	texts_end(d->view);
+	return st;
+}
+
+enum status view_draw(struct view *v, const struct world *w, const struct view_state *s, int x,
+                      int y, int width, int height, bool *more, const struct report *r)
+{
+	struct drawing d;
+	GLint bound = 0;
+	*more = false;
+	if (width < 1 || height < 1)
+		return ST_OK;
+	glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+	struct target *t = s->moving ? &v->plain : &v->fine;
+	enum status st = target_init(t, width, height, s->moving ? 0 : SAMPLES, r);
+	if (st == ST_OK)
+		st = drawing_init(&d, v, w, s, width, height, r);
+	if (st == ST_OK) {
+		glBindFramebuffer(GL_FRAMEBUFFER, t->frame);
+		st = draw_all(&d);
+		glBindFramebuffer(GL_READ_FRAMEBUFFER, t->frame);
+		glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)bound);
+		glBlitFramebuffer(0, 0, width, height, x, y, x + width, y + height,
+		                  GL_COLOR_BUFFER_BIT, GL_NEAREST);
+		*more = d.more || s->moving;
+		drawing_finish(&d);
+	}
+	glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)bound);
+	glBindVertexArray(0);
+	glUseProgram(0);
+	glDisable(GL_BLEND);
+	glDisable(GL_DEPTH_TEST);
+	return st;
+}
+
+bool view_arriving(const struct view *v)
+{
+	bool arriving = false;
+	for (int i = 0; i < v->n_maps; i++)
+		arriving |= v->maps[i].used && v->maps[i].arriving;
+	for (int i = 0; i < v->n_images; i++)
+		arriving |= v->images[i].arriving;
+	return arriving;
+}
+
+bool view_key(const struct view *v, struct key *out)
+{
+	if (v->has_key)
+		*out = v->key;
+	return v->has_key;
+}

@@ -1,0 +1,56 @@
+/* program.h - shaders compiled and linked. Private to this folder. */
+#ifndef BATTEN_VIEW_PROGRAM_H
+#define BATTEN_VIEW_PROGRAM_H
+
+#include <epoxy/gl.h>
+
+#include "report.h"
+
+/* What is drawn, each by a program of its own. */
+enum program { PROGRAM_SURFACE, PROGRAM_LINE, PROGRAM_SPRITE, PROGRAM_PLATE, N_PROGRAMS };
+
+/* Uniforms of all of them; one that a program does not have is -1 there. */
+#define UNIFORM_MAP(X)                                                                             \
+	X(MATRIX, "matrix")                                                                        \
+	X(EYE, "eye")                                                                              \
+	X(COLOR, "color")                                                                          \
+	X(LIGHT, "light")                                                                          \
+	X(FILL, "fill")                                                                            \
+	X(SKY, "sky")                                                                              \
+	X(STRENGTH, "strength")                                                                    \
+	X(LOOK, "look")                                                                            \
+	X(VALUES, "values")                                                                        \
+	X(COLORS, "colors")                                                                        \
+	X(RANGE, "range")                                                                          \
+	X(BELOW, "below")                                                                          \
+	X(ABOVE, "above")                                                                          \
+	X(NOTHING, "nothing")                                                                      \
+	X(GRID, "grid")                                                                            \
+	X(SCALE, "scale")                                                                          \
+	X(VIEWPORT, "viewport")                                                                    \
+	X(WIDTH, "width")                                                                          \
+	X(BIAS, "bias")                                                                            \
+	X(DASH, "dash")                                                                            \
+	X(STROKE, "stroke")                                                                        \
+	X(SIZE, "size")                                                                            \
+	X(SHAPE, "shape")                                                                          \
+	X(PICTURE, "picture")                                                                      \
+	X(PLACE, "place")
+
+#define X(name, text) UNIFORM_##name,
+enum uniform { UNIFORM_MAP(X) N_UNIFORMS };
+#undef X
+
+struct programs {
+	GLuint id[N_PROGRAMS];
+	GLint uniform[N_PROGRAMS][N_UNIFORMS];
+};
+
+/* Errors: ST_INTERNAL with the compiler's words. A zeroed one may be finished. */
+enum status programs_init(struct programs *p, const struct report *r);
+void programs_finish(struct programs *p);
+
+/* shaders.c: GLSL, vertex then fragment. */
+extern const char *const shader_source[N_PROGRAMS][2];
+
+#endif

@@ -1,0 +1,256 @@
+/* render.c - the world as a picture in a file, without a window. */
+#include "render.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "file.h"
+#include "path.h"
+#include "sheet.h"
+#include "view_private.h"
+
+enum { PAD = 16, KEY_RIGHT = 90, SIDE_MAX = 16384 };
+
+static const struct format {
+	const char *extension;
+	bool lines;
+	enum picture_format format;
+} formats[] = {
+	{ ".png", false, PICTURE_PNG },
+	{ ".svg", true, PICTURE_SVG },
+	{ ".pdf", true, PICTURE_PDF },
+};
+
+static const struct format *find_format(const char *path)
+{
+	for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+		if (!strcasecmp(path_extension(path), formats[i].extension))
+			return &formats[i];
+	return NULL;
+}
+
+static int shown_quantity(const struct world *w, const struct render_options *o)
+{
+	for (int k = 0; k < world_count(w); k++) {
+		const struct Ful *f = world_at(w, k);
+		const struct overlay *map = overlay_of(w, OVERLAY_MAP, f->id);
+		if (!f->display.on || f->entity.kind != ENTITY_SURFACE ||
+		    f->display.look != LOOK_MAP)
+			continue;
+		if (o->has_quantity)
+			return (int)o->quantity;
+		if (map)
+			return (int)map->quantity;
+	}
+	return -1;
+}
+
+static void add_names(struct text *t, const struct world *w)
+{
+	enum { NAMED = 3 };
+	int n = 0;
+	for (int k = 0; k < world_count(w); k++) {
+		const struct Ful *f = world_at(w, k);
+		if (f->display.on && n++ < NAMED)
+			text_addf(t, "%s%s", n > 1 ? ", " : "", f->name);
+	}
+	if (n > NAMED)
+		text_addf(t, " and %d more", n - NAMED);
+}
+
+void render_words(const struct world *w, const struct render_options *o, struct text *title,
+                  struct text *note)
+{
+	const int quantity = shown_quantity(w, o);
+	int lines = 0;
+	for (int k = 0; k < world_overlays(w); k++) {
+		const struct overlay *x = world_overlay(w, k);
+		if (x->kind == OVERLAY_LINES && x->file)
+			text_addf(note, "%s%s", lines++ ? ", " : "lines of ",
+			          path_file_name(x->file));
+	}
+	if (o->title)
+		text_add(title, o->title);
+	else if (quantity >= 0)
+		text_add(title, quantity_table[quantity].title);
+	else
+		add_names(title, w);
+	if (title->s && quantity >= 0 && !o->title)
+		title->s[0] = (char)toupper((unsigned char)title->s[0]);
+	if (quantity >= 0 || o->title) {
+		text_add(note, lines ? "; " : "");
+		add_names(note, w);
+	}
+}
+
+/* Rows come from the bottom, RGBA; Cairo's go down, as 0xRRGGBB. */
+static enum status read_back(struct sheet *s, const struct report *r)
+{
+	const size_t n = (size_t)s->width * s->height;
+	unsigned char *bytes = malloc(4 * n);
+	int stride;
+	if (!bytes)
+		return report_error(r, ST_RESOURCE, "cannot draw: memory ran out");
+	glPixelStorei(GL_PACK_ALIGNMENT, 4);
+	glReadPixels(0, 0, s->width, s->height, GL_RGBA, GL_UNSIGNED_BYTE, bytes);
+	unsigned *pixels = sheet_pixels(s, &stride);
+	for (int y = 0; y < s->height; y++)
+		for (int x = 0; x < s->width; x++) {
+			const unsigned char *p =
+			        bytes + 4 * ((size_t)(s->height - 1 - y) * s->width + x);
+			pixels[(size_t)y * stride + x] =
+			        (unsigned)p[0] << 16 | (unsigned)p[1] << 8 | p[2];
+		}
+	sheet_touched(s);
+	free(bytes);
+	return ST_OK;
+}
+
+static void write_words(struct sheet *s, struct view *v, const struct world *w,
+                        const struct render_options *o, enum theme set)
+{
+	struct text title = { .s = NULL }, note = { .s = NULL };
+	struct key key;
+	cairo_t *cr = s->cr;
+	render_words(w, o, &title, &note);
+	cairo_scale(cr, o->scale, o->scale);
+	if (title.s)
+		label_draw(cr, LABEL_HEADING, theme_color(set, TOKEN_TEXT), PAD, PAD + 12, 0,
+		           title.s);
+	if (note.s)
+		label_draw(cr, LABEL_NOTE, theme_color(set, TOKEN_MUTED), PAD, PAD + 30, 0, note.s);
+	text_finish(&title);
+	text_finish(&note);
+	if (!view_key(v, &key))
+		return;
+	const double high = s->height / o->scale, wide = s->width / o->scale;
+	key.bar = fmin(fmax(floor(0.28 * high), 140), 320);
+	key.unit = quantity_table[shown_quantity(w, o) < 0 ? 0 : shown_quantity(w, o)].power == 2
+	                   ? "1/length²"
+	                   : "1/length";
+	double width = fmax(key_width(cr, &key), KEY_RIGHT - PAD);
+	key_draw(cr, &key, floor(wide - PAD - width), PAD);
+}
+
+static enum status draw_to(struct sheet *s, struct view *v, const struct world *w,
+                           const struct view_state *state, const struct report *r)
+{
+	struct target t = { 0 };
+	bool more = true;
+	enum status st = target_init(&t, s->width, s->height, 0, r);
+	/* values of a job that still runs are taken as they are; triangles are waited for */
+	for (int k = 0; k < 10000 && more && st == ST_OK; k++) {
+		glBindFramebuffer(GL_FRAMEBUFFER, t.frame);
+		st = view_draw(v, w, state, 0, 0, s->width, s->height, &more, r);
+		if (more && view_arriving(v))
+			break;
+	}
+	glBindFramebuffer(GL_FRAMEBUFFER, t.frame);
+	if (st == ST_OK)
+		st = read_back(s, r);
+	target_finish(&t);
+	return st;
+}
+
+static enum status render_png(const struct world *w, const char *path,
+                              const struct render_options *o, struct view_state *state,
+                              const struct report *r)
+{
+	struct offscreen *screen = NULL;
+	struct view *v = NULL;
+	struct sheet sheet = { .surface = NULL };
+	enum status st = offscreen_create(&screen, r);
+	if (st == ST_OK)
+		st = view_create(&v, r);
+	if (st == ST_OK)
+		st = sheet_init(&sheet, path, o->width, o->height, r);
+	if (st == ST_OK)
+		st = draw_to(&sheet, v, w, state, r);
+	if (st == ST_OK) {
+		const struct sight *sight = world_sight((struct world *)w);
+		enum theme set = sight->has_background ? ground_theme(sight->background) : o->theme;
+		write_words(&sheet, v, w, o, set);
+		st = sheet_write(&sheet, path, r);
+	}
+	sheet_finish(&sheet);
+	view_destroy(v);
+	offscreen_destroy(screen);
+	return st;
+}
+
+static enum status place_camera(struct view_state *state, const struct world *w,
+                                const struct render_options *o, const struct report *r)
+{
+	const struct sight *sight = world_sight((struct world *)w);
+	const int width = (int)lrint(o->width / o->scale),
+	          height = (int)lrint(o->height / o->scale);
+	if (o->view || !sight->has_camera)
+		return view_fit(state, w, o->view, width, height, r);
+	state->camera = sight->camera;
+	state->camera.width = width;
+	state->camera.height = height;
+	return ST_OK;
+}
+
+static enum status check(const struct world *w, const char *path, const struct render_options *o,
+                         const struct format *f, const struct report *r)
+{
+	int shown = world_overlays(w);
+	for (int k = 0; k < world_count(w); k++)
+		shown += world_at(w, k)->display.on;
+	if (!f)
+		return report_error(r, ST_PARAMETER,
+		                    "'%s': a picture is .png, or .svg or .pdf for lines", path);
+	if (o->width < 1 || o->height < 1 || o->width > SIDE_MAX || o->height > SIDE_MAX)
+		return report_error(r, ST_PARAMETER, "size %dx%d: expected 1 to %d pixels a side",
+		                    o->width, o->height, SIDE_MAX);
+	if (!shown)
+		return report_error(r, ST_INPUT, "there is nothing to draw");
+	return ST_OK;
+}
+
+enum status render_write(const struct world *w, const char *path, const struct render_options *o,
+                         const struct report *r)
+{
+	struct render_options all = *o;
+	const struct format *f = find_format(path);
+	if (!(all.scale > 0))
+		all.scale = 1;
+	struct view_state state = { .theme = all.theme,
+		                    .scale = all.scale,
+		                    .quantity = all.has_quantity ? (int)all.quantity : -1,
+		                    .axes = true,
+		                    .hover_point = -1 };
+	struct whole_file file = { .stream = NULL };
+	enum status st = check(w, path, &all, f, r);
+	if (st == ST_OK)
+		st = place_camera(&state, w, &all, r);
+	if (st == ST_OK)
+		st = whole_file_create(&file, path, r);
+	if (st != ST_OK)
+		return st;
+	/* the writers open by name; a file that has none yet is found by its number */
+	char *name = file.temp ? strdup(file.temp)
+	                       : text_print("/proc/self/fd/%d", fileno(file.stream));
+	if (!name)
+		st = report_error(r, ST_RESOURCE, "cannot write '%s': memory ran out", path);
+	else
+		st = f->lines ? render_lines(w, name, f->format, &state.camera, &all, r)
+		              : render_png(w, name, &all, &state, r);
+	free(name);
+	if (st == ST_OK)
+		return whole_file_commit(&file, r);
+	whole_file_abandon(&file);
+	return st;
+}
+
+enum status render_picture(const struct world *w, const char *path, const char *view, int width,
+                           int height, enum theme theme, const struct report *r)
+{
+	const struct render_options o = {
+		.view = view, .width = width, .height = height, .theme = theme
+	};
+	return render_write(w, path, &o, r);
+}
