@@ -119,7 +119,7 @@ size_t help_search(const struct help *h, const struct menu_set *menus, const cha
 		if (score)
 			all[n++] = (struct help_hit){ t, sum };
 	}
-	if (n) {
+	if (n && max) {
 		qsort(all, n, sizeof *all, by_score);
 		memcpy(hits, all, (n < max ? n : max) * sizeof *all);
 	}

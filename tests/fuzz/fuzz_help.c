@@ -19,17 +19,18 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n)
 {
 	struct help_source s = { 0 }, again = { 0 };
 	struct text once = { 0 }, twice = { 0 };
+	const char *text = n ? (const char *)data : ""; /* no bytes come as NULL */
 	struct report_store store;
 
 	report_store_init(&store);
-	if (help_source_parse(&s, (const char *)data, n, "fuzz", &store.report) != ST_OK) {
+	if (help_source_parse(&s, text, n, "fuzz", &store.report) != ST_OK) {
 		if (store.n_errors != 1)
 			abort();
 		help_source_finish(&s);
 		return 0;
 	}
 	write_all(&s, &once);
-	if (help_source_parse(&again, once.s, once.n, "again", NULL) != ST_OK)
+	if (help_source_parse(&again, once.n ? once.s : "", once.n, "again", NULL) != ST_OK)
 		abort();
 	write_all(&again, &twice);
 	if (once.n != twice.n || (once.n && memcmp(once.s, twice.s, once.n) != 0))

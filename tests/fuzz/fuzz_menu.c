@@ -26,11 +26,12 @@ static void check_tree(const struct menu *m)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n)
 {
+	const char *text = n ? (const char *)data : ""; /* no bytes come as NULL */
 	struct report_store store;
 	struct menu *m, *again;
 
 	report_store_init(&store);
-	if (menu_parse(&m, (const char *)data, n, "fuzz", &store.report) != ST_OK) {
+	if (menu_parse(&m, text, n, "fuzz", &store.report) != ST_OK) {
 		if (m || store.n_errors != 1)
 			abort();
 		return 0;
