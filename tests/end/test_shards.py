@@ -162,5 +162,41 @@ def test_shards_are_checked(project):
     assert "local or slurm" in done.stderr, done.stderr
 
 
+# The first process of a shard says HELLO and dies; those begun in its place say nothing.
+MUTE = """#!/usr/bin/env python3
+import json, os, signal, struct, sys, time
+if sys.argv[1:] == ["--describe"]:
+    print(json.dumps({"name": "mute", "title": "mute", "version": 1, "parameters": [], "shards": True,
+                      "outputs": [{"extension": ".mute", "kind": "table", "when": None}]}))
+    sys.exit()
+def send(kind, **fields):
+    text = json.dumps(fields).encode()
+    os.write(1, struct.pack("<II", kind, len(text)) + text)
+if os.path.exists("again"):
+    time.sleep(1000)
+send(1, protocol=1, worker="mute")
+size = struct.unpack("<II", sys.stdin.buffer.read(8))[1]
+if json.load(open(json.loads(sys.stdin.buffer.read(size))["job"]))["shard"][0] == 0:
+    while not os.path.exists("again"):
+        time.sleep(0.01)
+    os.kill(os.getpid(), signal.SIGKILL)
+time.sleep(1000)
+"""
+
+
+def test_a_shard_begun_again_must_say_hello_in_time(project):
+    os.makedirs(project.path(".batten", "workers"))
+    with open(project.path(".batten", "workers", "batten-mute"), "w") as f:
+        f.write(MUTE)
+    os.chmod(f.name, 0o700)
+    project.environment["BATTEN_HELLO_GRACE"] = "2"  # python has to begin in it
+    (job,) = project.submit("mute", SPHERE, "--shards", 2, "-o", "x")
+    end.until(lambda: project.jobs()[job]["state"] == "running", "all have said HELLO")
+    open(project.path("again"), "w").close()
+    project.run("batten", "wait", job, status=1)
+    j = project.jobs()[job]
+    assert j["state"] == "failed" and "no HELLO within" in j["reason"], j
+
+
 if __name__ == "__main__":
     end.main()
