@@ -102,6 +102,15 @@ static enum status read_spline(struct iges_cursor *c, int depth, struct surface 
 	return iges_spline_surface(c, out);
 }
 
+/* Points looked at for an offset: damaged surfaces would want any number. */
+enum { OFFSET_POINTS = 50000, OFFSET_POINTS_EACH = 2000 /* point of the net */ };
+
+static bool told_to_stop(void *data)
+{
+	const struct iges *g = data;
+	return progress_step(g->progress, g->n_p ? (double)g->far / g->n_p : 0) != ST_OK;
+}
+
 /* 140: a vector that says on which side, the distance, the surface. */
 static enum status read_offset(struct iges_cursor *c, int depth, struct surface *out)
 {
@@ -123,8 +132,13 @@ static enum status read_offset(struct iges_cursor *c, int depth, struct surface 
 		                 "the surface that it is an offset of has no normal in its middle");
 	} else {
 		double side = vec3_dot(normal, vec3(p[0], p[1], p[2])) < 0 ? -1 : 1;
-		st = make_offset(out, &s, side * p[3], iges_tolerance(g, surface_size(&s)), &error,
-		                 &g->store.report);
+		const struct effort effort = {
+			OFFSET_POINTS + (int64_t)OFFSET_POINTS_EACH * s.n[0] * s.n[1],
+			told_to_stop,
+			g,
+		};
+		st = make_offset_within(out, &s, side * p[3], iges_tolerance(g, surface_size(&s)),
+		                        &effort, &error, &g->store.report);
 		if (st == ST_OK)
 			iges_warn_error(g, WARN_OFFSET, c->de, error);
 	}

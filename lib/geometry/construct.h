@@ -5,6 +5,8 @@
 #ifndef BATTEN_CONSTRUCT_H
 #define BATTEN_CONSTRUCT_H
 
+#include <stdint.h>
+
 #include "curve.h"
 #include "surface.h"
 
@@ -65,6 +67,18 @@ enum status make_bilinear(struct surface *out, const struct vec3 corner[4]);
  * found by checking. ST_INPUT where the distance exceeds the smallest radius. */
 enum status make_offset(struct surface *out, const struct surface *s, double distance,
                         double tolerance, double *error, const struct report *r);
+
+/* How much work may be done: points looked at, and whether to stop, asked every few thousand. */
+struct effort {
+	int64_t points;
+	bool (*stop)(void *data); /* may be NULL */
+	void *data;
+};
+
+/* Likewise with limits. Errors: also ST_PARAMETER (too much work), ST_CANCELLED (stopped). */
+enum status make_offset_within(struct surface *out, const struct surface *s, double distance,
+                               double tolerance, const struct effort *effort, double *error,
+                               const struct report *r);
 
 /* About the z axis through c, N outward: u is the longitude in [0, 2 pi], v the latitude in
  * [-pi/2, pi/2] or the angle about the torus's tube in [0, 2 pi]; major > minor > 0. */

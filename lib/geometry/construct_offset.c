@@ -20,6 +20,7 @@ enum {
 	MAX_ROUNDS = 30,
 	MAX_SPANS = 2048,     /* in one direction */
 	MAX_POINTS = 1 << 21, /* of the net */
+	ASK_EVERY = 2000,
 };
 
 /* A crease turns the normal by more than this, radians, over `beside` of a span. */
@@ -33,9 +34,31 @@ struct offset {
 	double distance, tolerance;
 	const struct report *r;
 	struct side side[2];
-	struct surface out; /* the present try */
-	double error;       /* of the whole, once checked */
+	struct surface out;          /* the present try */
+	double error;                /* of the whole, once checked */
+	const struct effort *effort; /* NULL: no limits */
+	int64_t spent, asked; /* points looked at, and when it was last asked whether to stop */
 };
+
+/* n more points are to be looked at. */
+static enum status spend(struct offset *o, int n)
+{
+	o->spent += n;
+	if (!o->effort)
+		return ST_OK;
+	if (o->spent > o->effort->points)
+		return report_error(
+		        o->r, ST_PARAMETER,
+		        "an offset within %g wants more than %lld points looked at; take "
+		        "a larger tolerance",
+		        o->tolerance, (long long)o->effort->points);
+	if (o->effort->stop && o->spent - o->asked >= ASK_EVERY) {
+		o->asked = o->spent;
+		if (o->effort->stop(o->effort->data))
+			return ST_CANCELLED;
+	}
+	return ST_OK;
+}
 
 static double inside(const double breaks[2], double x)
 {
@@ -80,11 +103,12 @@ static enum status check_radius(const struct offset *o, double u, double v)
 }
 
 /* No crease over the inner breaks, and no fold, seen at the samples of the surface's own spans. */
-static enum status check_surface(const struct offset *o)
+static enum status check_surface(struct offset *o)
 {
 	const struct side *a = &o->side[0], *b = &o->side[1];
 	enum status st = ST_OK;
 	for (int i = 0; i < a->spans * SAMPLES && st == ST_OK; i++) {
+		st = spend(o, b->spans * SAMPLES);
 		for (int j = 0; j < b->spans * SAMPLES && st == ST_OK; j++) {
 			double x = (i % SAMPLES + 0.5) / SAMPLES, y = (j % SAMPLES + 0.5) / SAMPLES;
 			st = check_radius(o, inside(a->breaks + i / SAMPLES, x),
@@ -131,6 +155,7 @@ static enum status interpolate(struct offset *o)
 	if (st == ST_OK && !x)
 		st = ST_RESOURCE;
 	for (int i = 0; i < n[0] && st == ST_OK; i++) {
+		st = spend(o, n[1]);
 		for (int j = 0; j < n[1] && st == ST_OK; j++) {
 			struct vec3 p;
 			st = exact_point(o, o->side[0].at[i], o->side[1].at[j], &p);
@@ -177,9 +202,12 @@ static enum status line_errors(struct offset *o, int d)
 		s->error[i] = 0;
 		for (int k = 0; k < SAMPLES; k++) {
 			double t = inside(s->breaks + i, (k + 0.5) / SAMPLES);
+			enum status st = spend(o, other->n);
+			if (st != ST_OK)
+				return st;
 			for (int j = 0; j < other->n; j++) {
 				double e, w = other->at[j];
-				enum status st = error_at(o, d == 0 ? t : w, d == 0 ? w : t, &e);
+				st = error_at(o, d == 0 ? t : w, d == 0 ? w : t, &e);
 				if (st != ST_OK)
 					return st;
 				s->error[i] = fmax(s->error[i], e);
@@ -198,10 +226,13 @@ static enum status cell_errors(struct offset *o)
 	memset(b->error, 0, (size_t)b->spans * sizeof *b->error);
 	for (int i = 0; i < a->spans * SAMPLES; i++) {
 		double u = inside(a->breaks + i / SAMPLES, (i % SAMPLES + 0.37) / SAMPLES);
+		enum status st = spend(o, b->spans * SAMPLES);
+		if (st != ST_OK)
+			return st;
 		for (int j = 0; j < b->spans * SAMPLES; j++) {
 			double v = inside(b->breaks + j / SAMPLES, (j % SAMPLES + 0.63) / SAMPLES);
 			double e;
-			enum status st = error_at(o, u, v, &e);
+			st = error_at(o, u, v, &e);
 			if (st == ST_OK && i % SAMPLES == 1 && j % SAMPLES == 2)
 				st = check_radius(o, u, v);
 			if (st != ST_OK)
@@ -265,6 +296,13 @@ static enum status approach(struct offset *o)
 enum status make_offset(struct surface *out, const struct surface *s, double distance,
                         double tolerance, double *error, const struct report *r)
 {
+	return make_offset_within(out, s, distance, tolerance, NULL, error, r);
+}
+
+enum status make_offset_within(struct surface *out, const struct surface *s, double distance,
+                               double tolerance, const struct effort *effort, double *error,
+                               const struct report *r)
+{
 	if (!isfinite(distance) || !(tolerance > 0))
 		return report_error(
 		        r, ST_PARAMETER,
@@ -276,7 +314,9 @@ enum status make_offset(struct surface *out, const struct surface *s, double dis
 		return report_error(r, ST_PARAMETER,
 		                    "offset tolerance %g is below rounding, %g; take a larger one",
 		                    tolerance, rounding * size);
-	struct offset o = { .s = s, .distance = distance, .tolerance = tolerance, .r = r };
+	struct offset o = {
+		.s = s, .distance = distance, .tolerance = tolerance, .r = r, .effort = effort
+	};
 	enum status st = ST_OK;
 	for (int d = 0; d < 2 && st == ST_OK; d++)
 		st = side_init(&o.side[d], s, d);

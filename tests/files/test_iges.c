@@ -174,6 +174,43 @@ static void stops_when_told(void **state)
 	text_finish(&parameters);
 }
 
+static void stop_when_asked_again(void *data, double fraction)
+{
+	(void)fraction;
+	atomic_store((atomic_bool *)data, true);
+}
+
+/* One offset of a curved surface takes long by itself. */
+static void offsets_stop_when_told(void **state)
+{
+	const struct made_file f = { 0 };
+	const struct made_entity entities[MADE_MAX] = {
+		{ 140, 0, "140,1.,1.,0.,.1,3;" },
+		{ 122, 0, "122,5,3.,0.,1.;" },
+		{ 126, 0,
+		  "126,3,3,0,0,1,0,0.,0.,0.,0.,1.,1.,1.,1.,1.,1.,1.,1.,3.,0.,0.,2.,3.,0.,1.,-3.,0.,"
+		  "0.,0.,0.,0.,1.;" },
+	};
+	struct text t = { 0 };
+	struct model m;
+	struct report_store store;
+	struct entity *e;
+	atomic_bool stop;
+	struct progress p = { .step = stop_when_asked_again, .data = &stop, .stop = &stop };
+	(void)state;
+	make_iges(&t, &f, entities, 3);
+	report_store_init(&store);
+	model_init(&m);
+	assert_int_equal(iges_parse(&m, t.s, t.n, "x.igs", NULL, &store.report), ST_OK);
+	assert_int_equal(model_find(&m, "D1", &e, NULL), ST_OK);
+	model_finish(&m);
+	atomic_init(&stop, false);
+	model_init(&m);
+	assert_int_equal(iges_parse(&m, t.s, t.n, "x.igs", &p, &store.report), ST_CANCELLED);
+	model_finish(&m);
+	text_finish(&t);
+}
+
 /* Composites of composites, each naming the next four times: 4^14 curves if nobody counted. */
 static void entities_that_multiply_are_stopped(void **state)
 {
@@ -386,6 +423,7 @@ int main(void)
 		cmocka_unit_test(whole_files_refused),
 		cmocka_unit_test(parts_are_not_counted),
 		cmocka_unit_test(stops_when_told),
+		cmocka_unit_test(offsets_stop_when_told),
 		cmocka_unit_test(entities_that_multiply_are_stopped),
 		cmocka_unit_test(damaged_files_are_survived),
 	};

@@ -282,6 +282,12 @@ static void one_bad_entity_costs_one_entity(void **state)
 		{ { { 140, 0, "140,0.,0.,1.,2.,1;" } }, "circle" },
 		{ { { 140, 0, "140,0.,0.,1.,2.,3;" }, { 110, 0, "110,0.,0.,0.,1.,0.,0.;" } },
 		  "where a surface is expected" },
+		/* folded over itself: its normal turns about, no net is fine enough */
+		{ { { 140, 0, "140,0.,0.,1.,2.,3;" },
+		    { 128, 0,
+		      "128,1,1,1,1,0,0,0,0,0," KNOTS4 KNOTS4
+		      "1.,1.,16.,1.,0.,0.,0.,1.,5.,0.,0.,14.,0.,1.,1.,0.,0.,1.,0.,1.;" } },
+		  "points looked at" },
 		{ { { 144, 0, "144,77,1,0,0;" } }, "surface D77 is not there" },
 		{ { { 144, 0, "144,3,1,0,0;" }, { 110, 0, "110,0.,0.,0.,1.,1.,1.;" } },
 		  "D3 is of a type that is not read" },
