@@ -12,6 +12,7 @@ enum {
 };
 
 static const double at_pole = 1e-7;  /* length of a derivative times its range, of the size */
+static const double half_way = 0.25; /* of the way to where feet are not single, squared */
 static const double settled = 1e-11; /* of the size: a step that ends the search */
 
 void projector_find_flat(struct projector *p)
@@ -228,11 +229,35 @@ double projector_nearest(struct projector *p, struct vec3 x, struct vec3 guess, 
 	return d;
 }
 
-struct vec3 projector_bring_down(const struct projector *p, struct vec3 uv, struct vec3 d)
+/* Off its border a foot moves freely. */
+static bool is_free(const struct projector *p, struct vec3 uv)
 {
-	struct vec3 q, du, dv;
+	bool free = true;
+	for (int d = 0; d < 2; d++) {
+		double w = d ? uv.y : uv.x;
+		const double *domain = p->s->domain[d];
+		free &= p->period[d] > 0 || (w > domain[0] && w < domain[1]);
+	}
+	return free;
+}
+
+struct vec3 projector_bring_down(const struct projector *p, struct vec3 uv, struct vec3 x,
+                                 struct vec3 d)
+{
+	struct vec3 s[9];
 	double out[2];
-	surface_tangents(p->s, inside(p, 0, uv.x), inside(p, 1, uv.y), &q, &du, &dv);
+	surface_derivatives(p->s, inside(p, 0, uv.x), inside(p, 1, uv.y), 2, s);
+	const struct vec3 du = s[3], dv = s[1], r = vec3_sub(x, s[0]);
+	double aa = vec3_dot(du, du), ab = vec3_dot(du, dv), bb = vec3_dot(dv, dv);
+	double a = aa - vec3_dot(r, s[6]), b = ab - vec3_dot(r, s[4]), c = bb - vec3_dot(r, s[2]);
+	double det = a * c - b * b;
+	/* beside the surface the foot moves by what its bending makes of the way; on a border, at a
+	 * pole, or farther than its radius, as if it were flat */
+	if (is_free(p, uv) && det > half_way * (aa * bb - ab * ab) &&
+	    aa * bb - ab * ab > 1e-14 * aa * bb) {
+		double ar = vec3_dot(du, d), br = vec3_dot(dv, d);
+		return vec3((ar * c - br * b) / det, (br * a - ar * b) / det, 0);
+	}
 	solve(p, du, dv, d, out);
 	return vec3(out[0], out[1], 0);
 }

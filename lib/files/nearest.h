@@ -33,8 +33,9 @@ double projector_search(struct projector *p, struct vec3 x, double enough, struc
 /* The nearest point to x, near `guess` if there is one as good; gives its distance. */
 double projector_nearest(struct projector *p, struct vec3 x, struct vec3 guess, struct vec3 *uv);
 
-/* Derivative of the u,v curve: what the surface makes of it is d, as near as can be. */
-struct vec3 projector_bring_down(const struct projector *p, struct vec3 uv, struct vec3 d);
+/* How the foot of x, at uv, moves where x moves by d. */
+struct vec3 projector_bring_down(const struct projector *p, struct vec3 uv, struct vec3 x,
+                                 struct vec3 d);
 
 /* At a pole a parameter is free: 0 or 1; -1 where there is none. */
 int projector_free_parameter(const struct projector *p, struct vec3 uv);

@@ -43,7 +43,7 @@ static void follow(void *data, double a, double b, struct vec3 guess, struct her
 		t += t - a < b - t ? inner : -inner;
 		curve_derivatives(p->c, t, 1, x);
 		projector_nearest(p, x[0], guess, &beside);
-		n->in = n->out = projector_bring_down(p, beside, x[1]);
+		n->in = n->out = projector_bring_down(p, beside, x[0], x[1]);
 		if (lost == 0)
 			n->point.x = beside.x + (n->t - t) * n->in.x;
 		else
@@ -53,9 +53,9 @@ static void follow(void *data, double a, double b, struct vec3 guess, struct her
 	/* at a break the side matters: a hair inside there */
 	double in = n->t >= b ? b - 1e-9 * (b - a) : n->t, out = n->t <= a ? a : n->t;
 	curve_derivatives(p->c, in, 1, x);
-	n->in = projector_bring_down(p, n->point, x[1]);
+	n->in = projector_bring_down(p, n->point, x[0], x[1]);
 	curve_derivatives(p->c, out, 1, x);
-	n->out = projector_bring_down(p, n->point, x[1]);
+	n->out = projector_bring_down(p, n->point, x[0], x[1]);
 }
 
 static double off_surface(void *data, const struct hermite_node *n, struct vec3 candidate)
