@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "canvas.h"
 #include "panel_screens.h"
 
 static const struct {
@@ -23,24 +24,18 @@ int main(int argc, char **argv)
 	}
 	for (int i = 0; i < n_screens; i++)
 		for (size_t j = 0; j < sizeof sizes / sizeof *sizes; j++) {
-			const double scale = sizes[j].scale;
-			const struct look look = { .theme = sizes[j].theme,
-				                   .scale = scale,
-				                   .hover_kind = HIT_MENU_ROW,
-				                   .hover_index = 4 };
-			struct hits hits = { 0 };
-			cairo_surface_t *s = cairo_image_surface_create(
-			        CAIRO_FORMAT_ARGB32, (int)(sizes[j].width * scale),
-			        (int)(sizes[j].height * scale));
-			cairo_t *cr = cairo_create(s);
+			struct canvas c;
 			char path[4096];
-			screen_draw(cr, &screens[i], sizes[j].width, sizes[j].height, &look, &hits);
-			cairo_destroy(cr);
+			canvas_init(&c, sizes[j].width, sizes[j].height, sizes[j].scale,
+			            sizes[j].theme, 0);
+			c.look.hover_kind = HIT_MENU_ROW;
+			c.look.hover_index = 4;
+			screen_draw(c.cr, &screens[i], sizes[j].width, sizes[j].height, &c.look,
+			            NULL);
 			snprintf(path, sizeof path, "%s/%s-%s.png", argv[1], screens[i].name,
 			         sizes[j].name);
-			cairo_status_t st = cairo_surface_write_to_png(s, path);
-			cairo_surface_destroy(s);
-			hits_finish(&hits);
+			cairo_status_t st = cairo_surface_write_to_png(c.surface, path);
+			canvas_finish(&c);
 			if (st != CAIRO_STATUS_SUCCESS) {
 				fprintf(stderr, "panel-pictures: cannot write '%s': %s\n", path,
 				        cairo_status_to_string(st));

@@ -135,8 +135,5 @@ void screen_draw(cairo_t *cr, const struct screen *s, double width, double heigh
 {
 	struct layout l;
 	layout_place(&l, width, height, true, s->menu_rows);
-	cairo_save(cr);
-	cairo_scale(cr, k->scale, k->scale);
 	s->paint(cr, &l, k, h);
-	cairo_restore(cr);
 }

@@ -14,7 +14,8 @@ struct screen {
 extern const struct screen screens[];
 extern const int n_screens;
 
-/* The parts that every screen has, then its own. width and height in logical px. */
+/* The parts that every screen has, then its own. width and height in logical px, of a
+ * context scaled already. */
 void screen_draw(cairo_t *cr, const struct screen *s, double width, double height,
                  const struct look *k, struct hits *h);
 

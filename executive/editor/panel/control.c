@@ -6,6 +6,8 @@
 
 #include "paint.h"
 
+enum { CAP_MAX = 96, BUTTON_TEXT_MAX = 160 };
+
 double paint_width(const struct paint *p, enum label_style style, const char *text)
 {
 	return label_width(p->cr, style, text);
@@ -34,7 +36,7 @@ double paint_path(const struct paint *p, enum label_style style, enum token toke
 
 double paint_cap_width(const struct paint *p, const char *key)
 {
-	return fmax(18, paint_width(p, LABEL_CAP, key) + 10);
+	return fmin(fmax(18, paint_width(p, LABEL_CAP, key) + 10), CAP_MAX);
 }
 
 double paint_cap(const struct paint *p, double x, double middle, double align, const char *key)
@@ -43,7 +45,7 @@ double paint_cap(const struct paint *p, double x, double middle, double align, c
 	x -= width * align;
 	paint_fill(p, x, middle - height / 2, width, height, 4, TOKEN_FIELD);
 	paint_border(p, x, middle - height / 2, width, height, 4, 1, TOKEN_LINE);
-	paint_text(p, LABEL_CAP, TOKEN_TEXT2, x + width / 2, middle, 0.5, key);
+	paint_cut(p, LABEL_CAP, TOKEN_TEXT2, x + width / 2, middle, 0.5, width - 8, key);
 	return width;
 }
 
@@ -60,8 +62,8 @@ double paint_hint(const struct paint *p, double x, double middle, const char *ke
 
 double paint_button_width(const struct paint *p, const struct button *b)
 {
-	double width = 24 + paint_width(p, b->main ? LABEL_SECTION : LABEL_NAME, b->text);
-	return b->key ? width + paint_cap_width(p, b->key) : width;
+	const double text = paint_width(p, b->main ? LABEL_SECTION : LABEL_NAME, b->text);
+	return 24 + fmin(text, BUTTON_TEXT_MAX) + (b->key ? paint_cap_width(p, b->key) : 0);
 }
 
 double paint_button(const struct paint *p, double x, double y, const struct button *b)
@@ -88,9 +90,9 @@ double paint_button(const struct paint *p, double x, double y, const struct butt
 			paint_border(p, x, y, width, PAINT_BUTTON, 6, 1, TOKEN_EDGE);
 		}
 	}
-	paint_text(p, style, text, x + 12, middle, 0, b->text);
+	paint_cut(p, style, text, x + 12, middle, 0, BUTTON_TEXT_MAX, b->text);
 	if (b->key && (b->main || b->off))
-		paint_text(p, LABEL_CAP, text, x + width - 12, middle, 1, b->key);
+		paint_cut(p, LABEL_CAP, text, x + width - 12, middle, 1, CAP_MAX - 10, b->key);
 	else if (b->key)
 		paint_cap(p, x + width - 7, middle, 1, b->key);
 	if (paint_focused(p, b->kind, b->index, b->part))

@@ -19,7 +19,7 @@ void panel_key(cairo_t *cr, const struct box_px *view, const struct key_model *m
 		                 .bar = panel_key_bar(view->height),
 		                 .theme = k->theme };
 	const double right = view->x + view->width, y = paint_snap(&p, view->y + TOP);
-	if (!(m->map.lo < m->map.hi)) {
+	if (!(m->map.lo < m->map.hi) || !isfinite(m->map.hi - m->map.lo)) {
 		const double x =
 		        right - PAINT_PADDING - paint_width(&p, LABEL_NOTE, "no values yet");
 		paint_plate(&p, x - 8, y, right - x, 42);

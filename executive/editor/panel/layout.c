@@ -3,7 +3,7 @@
 
 #include "paint.h"
 
-enum { ROWS_MAX = 14 };
+enum { ROWS_MAX = 14, FORM_MIN = 96 };
 
 static double panel_width(double width)
 {
@@ -20,10 +20,13 @@ void layout_place(struct layout *l, double width, double height, bool panel_show
 {
 	const double panel = panel_shown ? fmin(panel_width(width), width) : 0;
 	const double left = width - panel;
-	const double mouse = height < 640 ? PAINT_MOUSE_LOW : PAINT_MOUSE;
 	const int rows = menu_rows < 0 ? 0 : menu_rows > ROWS_MAX ? ROWS_MAX : menu_rows;
 
 	l->menu_row = height < 760 ? 24 : 28;
+	const double menu = PAINT_MENU_HEAD + rows * l->menu_row + 8;
+	/* the icon gives way before the form has no room for its button and two fields */
+	const bool low = height < 640 || height - PAINT_TOP - menu - PAINT_MOUSE < FORM_MIN;
+	const double mouse = low ? PAINT_MOUSE_LOW : PAINT_MOUSE;
 	l->form_row = 30;
 	l->top = (struct box_px){ 0, 0, left, PAINT_TOP };
 	l->panel_top = (struct box_px){ left, 0, panel, PAINT_TOP };

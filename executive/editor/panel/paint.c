@@ -98,7 +98,8 @@ void paint_raised(const struct paint *p, double x, double y, double width, doubl
 		paint_border(p, x, y, width, height, radius, 1, TOKEN_LINE);
 }
 
-/* The shadow is three rounded boxes about the card, 4 px lower. */
+/* The shadow is three rounded boxes about the card, 4 px lower; its middle, that the card hides, is
+ * left out, for most of the time would go there. */
 void paint_card(const struct paint *p, double x, double y, double width, double height,
                 double radius)
 {
@@ -106,12 +107,19 @@ void paint_card(const struct paint *p, double x, double y, double width, double 
 		double wider, alpha;
 	} shadow[] = { { 10, 0.10 }, { 6, 0.14 }, { 3, 0.20 } };
 	const double strength = paint_is_dark(p) ? 0.45 : 0.16;
+	cairo_t *cr = p->cr;
+	cairo_save(cr);
+	cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
 	for (int i = 0; i < 3; i++) {
 		double w = shadow[i].wider;
-		round_path(p->cr, x - w / 2, y - w / 2 + 4, width + w, height + w, radius + w / 2);
-		cairo_set_source_rgba(p->cr, 0, 0, 0, shadow[i].alpha * strength);
-		cairo_fill(p->cr);
+		round_path(cr, x - w / 2, y - w / 2 + 4, width + w, height + w, radius + w / 2);
+		if (width > 4 * radius && height > 4 * radius)
+			cairo_rectangle(cr, x + radius, y + radius, width - 2 * radius,
+			                height - 2 * radius);
+		cairo_set_source_rgba(cr, 0, 0, 0, shadow[i].alpha * strength);
+		cairo_fill(cr);
 	}
+	cairo_restore(cr);
 	paint_fill(p, x, y, width, height, radius, TOKEN_RAISED);
 	paint_border(p, x, y, width, height, radius, 1, TOKEN_LINE);
 }
