@@ -72,4 +72,11 @@ size_t help_search(const struct help *h, const struct menu_set *menus, const cha
 /* A text of h for a terminal, lines of at most `width` columns. Caller frees; NULL: memory ran out. */
 char *help_print(const struct help *h, const struct help_text *t, int width);
 
+/*
+ * A text of h for the window, which lays it out itself: paragraphs, a line each; then, where they are
+ * there, the lines Arguments, Result, Example and See also with theirs below them. An argument is
+ * NAME, tab, RANGE, tab, MEANING; a link CODE, blank, TITLE. Caller frees; NULL: memory ran out.
+ */
+char *help_page(const struct help *h, const struct help_text *t);
+
 #endif

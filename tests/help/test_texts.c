@@ -131,6 +131,28 @@ static void a_page_fits_its_width(void **state)
 	help_destroy(h);
 }
 
+static void a_page_of_the_window_has_sections(void **state)
+{
+	struct help *h = read_help(NULL, 0);
+	char *page = help_page(h, help_find(h, "V99"));
+
+	(void)state;
+	assert_non_null(strstr(page, "\n\nArguments\non\tyes or no\tdraw it or not; "));
+	assert_non_null(strstr(page, "\n\nResult\nThe surface is in the view or out of it.\n"));
+	assert_non_null(
+	        strstr(page, "\n\nExample\nV99 on=no\n\nSee also\nV48 Draw the curve\nV159 "));
+	free(page);
+	page = help_page(h, help_find(h, "N31"));
+	assert_null(strstr(page, "Arguments\n"));
+	assert_null(strstr(page, "Result\n"));
+	assert_non_null(strstr(page, "\n\nSee also\nV79 "));
+	free(page);
+	/* a comma would end a link in the window, a tab a cell */
+	for (size_t k = 0; k < help_count(h); k++)
+		assert_null(strpbrk(help_at(h, k)->title, ",\t"));
+	help_destroy(h);
+}
+
 static char *put(const char *folder, const char *name, const char *text, size_t n)
 {
 	char *path = path_join(folder, name);
@@ -223,6 +245,7 @@ int main(void)
 		cmocka_unit_test(what_is_looked_for_comes_first),
 		cmocka_unit_test(all_words_must_occur),
 		cmocka_unit_test(a_page_fits_its_width),
+		cmocka_unit_test(a_page_of_the_window_has_sections),
 		cmocka_unit_test(own_texts_replace_and_add),
 		cmocka_unit_test(files_of_another_version_are_refused),
 	};
