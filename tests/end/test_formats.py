@@ -52,6 +52,86 @@ def test_iges_and_g2_hold_the_same_shape(project):
                     near(p["point"], q["point"], size, 1e-15, what)
 
 
+SQUARE = ("128,1,1,1,1,0,0,1,0,0,0.,0.,1.,1.,0.,0.,1.,1.,1.,1.,1.,1.,"
+          "0.,0.,0.,1.,0.,0.,0.,1.,0.,1.,1.,0.,0.,1.,0.,1.;")
+TRIMMED = {
+    "hole": (1 - 0.16 * math.pi, [
+        (144, 0, "144,3,0,1,0,5;"), (128, 0, SQUARE), (142, 0, "142,0,3,7,0,1;"),
+        (100, 0, "100,0.,.5,.5,.9,.5,.9,.5;")]),
+    "ring": (0.15 * math.pi, [
+        (144, 0, "144,3,1,1,5,7;"), (128, 0, SQUARE), (142, 0, "142,0,3,9,0,1;"), (142, 0, "142,0,3,11,0,1;"),
+        (100, 0, "100,0.,.5,.5,.9,.5,.9,.5;"), (100, 0, "100,0.,.5,.5,.6,.5,.6,.5;")]),
+    "two regions": (0.02 * math.pi, [
+        (143, 0, "143,0,3,2,5,7;"), (128, 0, SQUARE), (141, 0, "141,0,0,3,1,9,1,0;"), (141, 0, "141,0,0,3,1,11,1,0;"),
+        (100, 0, "100,0.,.3,.3,.4,.3,.4,.3;"), (100, 0, "100,0.,.7,.7,.8,.7,.8,.7;")]),
+    "cylinder": (0.72 * math.pi, [
+        (144, 0, "144,3,1,0,5;"), (120, 0, "120,9,11,0.,3.141592653589793;"), (142, 0, "142,0,3,7,0,1;"),
+        (100, 0, "100,0.,.5,1.5707963267948966,.8,1.5707963267948966,.8,1.5707963267948966;"),
+        (110, 0, "110,0.,0.,0.,0.,0.,1.;"), (110, 0, "110,2.,0.,0.,2.,0.,4.;")]),
+    "over the seam": (0.4 * math.pi, [
+        (143, 0, "143,1,3,1,5;"), (122, 0, "122,9,1.,0.,2.;"), (141, 0, "141,1,2,3,1,0,1,1,7;"),
+        (106, 63, "106,1,5,0.,.9,.25,1.1,.25,1.1,.75,.9,.75,.9,.25;"), (100, 0, "100,0.,0.,0.,1.,0.,1.,0.;")]),
+}
+
+
+def iges(entities):
+    """An IGES file in millimetres of rows type, form, parameters; D1, D3, ... in their order."""
+    def line(text, letter, number):
+        return f"{text:<72}{letter}{number:>7}\n"
+    directory, data, count = "", "", 0
+    for i, (kind, form, parameters) in enumerate(entities):
+        pieces = [parameters[k:k + 64] for k in range(0, len(parameters), 64)]
+        for j, row in enumerate(((kind, count + 1, 0, 0, 0, 0, 0, 0, "00000000"),
+                                 (kind, 0, 0, len(pieces), form, "", "", "", 0))):
+            directory += line("".join(f"{x:>8}" for x in row), "D", 2 * i + j + 1)
+        for k, piece in enumerate(pieces):
+            data += line(f"{piece:<64}{2 * i + 1:>8}", "P", count + k + 1)
+        count += len(pieces)
+    return (line("", "S", 1) + line("1H,,1H;,,,,,,,,,,,1.,2,2HMM;", "G", 1) + directory + data
+            + line(f"S{1:>7}G{1:>7}D{2 * len(entities):>7}P{count:>7}", "T", 1))
+
+
+def areas(project, file):
+    return [e["area"] for e in project.json("batten", "info", file)["entities"] if e["kind"] == "surface"]
+
+
+def occt_areas(project, file):
+    lines = project.run(os.environ["BATTEN_OCCT_READ"], project.path(file)).stdout.split("\n")
+    found = [float(x) for x in lines[1:] if x]
+    assert lines[0] == f"faces {len(found)}", lines
+    return found
+
+
+def test_trims_come_back(project):
+    for name, (area, entities) in TRIMMED.items():
+        with open(project.path("in.igs"), "w") as f:
+            f.write(iges(entities))
+        project.run("batten", "export", "in.igs", "--to", "out.igs")
+        for file in ("in.igs", "out.igs"):
+            found = sum(areas(project, file))
+            assert abs(found - area) <= 1e-5 * area, f"{name} {file}: {found}, expected {area}"
+
+
+def test_open_cascade_reads_the_same_faces(project):
+    if not os.environ.get("BATTEN_OCCT_READ"):
+        raise end.Skip("Open CASCADE is not installed")
+    for name, (area, entities) in TRIMMED.items():
+        with open(project.path("in.igs"), "w") as f:
+            f.write(iges(entities))
+        project.run("batten", "export", "in.igs", "--to", "out.igs")
+        found = occt_areas(project, "out.igs")
+        # one for each outer loop; a face over the seam is cut there
+        assert len(found) == (2 if name in ("two regions", "over the seam") else 1), (name, found)
+        assert abs(sum(found) - area) <= 1e-5 * area, f"{name}: {found}, expected {area}"
+    data = os.environ.get("BATTEN_DATA")
+    for name in ("naca_wing.iges", "hammer.iges", "torus_nurbs.igs", "d150_wing.igs") if data else ():
+        project.run("batten", "export", os.path.join(data, name), "--to", "out.igs")
+        mine, theirs = areas(project, "out.igs"), occt_areas(project, "out.igs")
+        assert len(mine) == len(theirs), f"{name}: {len(mine)} faces, Open CASCADE has {len(theirs)}"
+        scale = project.json("batten", "info", "out.igs")["unit_in_mm"] ** 2
+        assert abs(sum(mine) * scale - sum(theirs)) <= 1e-4 * sum(theirs), (name, sum(mine) * scale, sum(theirs))
+
+
 def read_obj(path):
     points, triangles, names = [], [], 0
     with open(path) as f:
