@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "json.h"
+#include "last_words.h"
 #include "lock.h"
 #include "path.h"
 #include "text.h"
@@ -255,12 +256,19 @@ enum status client_connect(struct client **out, const struct project *p, bool st
                            const struct report *r)
 {
 	enum status st = connect_once(out, p, r);
+	char *log = st == ST_CANCELLED && start ? path_join(p->hidden, "logs/service.log") : NULL;
+	int64_t mark = log ? last_words_mark(log) : 0;
 
 	for (int tries = 0; st == ST_CANCELLED && start && tries < STARTS; tries++) {
 		st = start_service(p, r);
 		if (st == ST_OK)
 			st = connect_once(out, p, r);
 	}
+	char *words = st == ST_CANCELLED && log ? last_words(log, mark) : NULL;
+	free(log);
+	if (words)
+		st = report_error(r, ST_RESOURCE, "the service cannot begin: %s", words);
+	free(words);
 	if (st == ST_CANCELLED && start)
 		return report_error(r, ST_RESOURCE,
 		                    "the service ended at once; see '%s/logs/service.log'",

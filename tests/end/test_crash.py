@@ -88,6 +88,25 @@ def test_a_worker_by_hand_goes_on_from_its_part_file(project):
     assert not [name for name in os.listdir(project.folder) if name.endswith(".part")]
 
 
+def test_a_ledger_that_cannot_be_used_says_what_to_do(project):
+    project.run("batten", "jobs")
+    project.run("batten", "shutdown")
+    path = project.path(".batten", "jobs.db")
+    end.until(lambda: not os.path.exists(path + "-wal"), "the ledger is closed")
+    with open(path, "rb") as f:
+        whole = f.read()
+    later = bytearray(whole)
+    later[60:64] = (9).to_bytes(4, "big")  # SQLite's user_version
+    for content, words in ((later, "later batten"), (b"rubbish" * 1000, "put a copy in its place")):
+        with open(path, "wb") as f:
+            f.write(content)
+        said = project.run("batten", "jobs", status=1).stderr
+        assert words in said and said.count("\n") == 1, said
+    with open(path, "wb") as f:
+        f.write(whole)
+    project.run("batten", "jobs")
+
+
 # Writes beside its output as the workers' shared main does, and waits there to be killed.
 HALF = """#!/usr/bin/env python3
 import json, os, struct, sys, time
