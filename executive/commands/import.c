@@ -1,18 +1,15 @@
 /* import.c - every entity of a geometry file as .base. */
-#include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base.h"
 #include "file.h"
-#include "hash.h"
 #include "json.h"
 #include "path.h"
 #include "reading.h"
 #include "text.h"
 #include "verbs.h"
+#include "work_order.h"
 
 static const struct option_row import_options[] = {
 	{ "--into", NULL, "DIR", "folder to write into (default: the current one)" },
@@ -30,16 +27,12 @@ struct import {
 	json_t *entities;
 };
 
-/* Where an entity goes: DIR/NAME.base, DIR/NAME-3.base, or DIR/inputs/HASH.base. Fresh. */
-static char *place(const struct import *x, const struct entity *e, const struct text *t)
+/* Where an entity goes: DIR/NAME.base, DIR/NAME-3.base. Fresh. */
+static char *place(const struct import *x, const struct entity *e)
 {
-	char hash[HASH_SIZE];
 	char *name, *path;
 
-	if (x->inputs) {
-		hash_bytes(t->s, t->n, hash);
-		name = text_print("inputs/%s.base", hash);
-	} else if (x->n_chosen == 1)
+	if (x->n_chosen == 1)
 		name = text_print("%s.base", x->basic);
 	else if (e->number)
 		name = text_print("%s-%d.base", x->basic, e->number);
@@ -54,18 +47,14 @@ static enum status write_entity(struct import *x, const struct entity *e)
 {
 	const struct report *r = &x->i->report;
 	struct text t = { 0 };
-	enum status st = ST_RESOURCE;
+	enum status st;
+	char *path = NULL;
 
 	base_format_entity(x->m, e, &t);
-	char *path = t.failed ? NULL : place(x, e, &t);
-	if (!path)
-		report_error(r, st, "memory ran out");
-	else if (x->inputs && path_exists(path))
-		/* the same bytes; prune leaves young ones alone until they are submitted */
-		st = utimensat(AT_FDCWD, path, NULL, 0)
-		             ? report_error(r, status_from_errno(errno), "cannot touch '%s': %s",
-		                            path, strerror(errno))
-		             : ST_OK;
+	if (x->inputs)
+		st = work_input_keep(x->folder, &t, &path, r);
+	else if (t.failed || !(path = place(x, e)))
+		st = report_error(r, ST_RESOURCE, "memory ran out");
 	else
 		st = file_write(path, t.s, t.n, r);
 	if (st == ST_OK)

@@ -14,11 +14,8 @@
 #include "number.h"
 #include "path.h"
 #include "roster.h"
-#include "settings.h"
 #include "shard.h"
-#include "text.h"
-
-enum { PACKET_ROOM = 48 * 1024 }; /* bytes of jobs in one SUBMIT */
+#include "work_order.h"
 
 const struct option_row submission_options[] = {
 	{ "--output", "-o", "NAME", "basic name of the results, or the whole file name" },
@@ -46,26 +43,12 @@ const char submission_help[] =
         "a scene make one job of all inputs, the others one a surface, as a group.\n"
         "Results are named after the input, in the current folder, or as -o says.";
 
-/* One surface that a job reads. */
-struct input {
-	char *hash_path; /* owned; .batten/inputs/HASH.base */
-	char *name;      /* owned; as the user named the file */
-	char *path;      /* owned; absolute */
-	int64_t number;
-	bool alone; /* the only surface named of its file */
-};
-
 struct submission {
 	const struct invocation *i;
-	struct roster roster;
-	const struct roster_worker *worker;
-	json_t *parameters;
-	struct input *inputs;
+	struct work_order order;
+	json_t *parameters, *after, *after_any;
+	struct work_input *inputs; /* owned, as their texts are */
 	size_t n_inputs;
-	json_t *after, *after_any;
-	double wall;
-	long priority, threads, memory, shards;
-	char *on; /* owned */
 };
 
 bool submission_takes_value(const struct invocation *i, const char *option)
@@ -89,72 +72,22 @@ bool submission_takes_value(const struct invocation *i, const char *option)
 	return !flag;
 }
 
-static enum status check_worker(struct submission *s, const struct project *p)
+static void take_parameters(struct submission *s)
 {
-	const struct report *r = &s->i->report;
-	const char *name = s->i->words[0];
-	enum status st = roster_read(&s->roster, p, name, r);
-
-	if (st != ST_OK)
-		return st;
-	s->worker = roster_find(&s->roster, name);
-	if (!s->worker)
-		return report_error(r, ST_PARAMETER,
-		                    "there is no worker '%s'; batten workers lists them", name);
-	if (s->worker->broken)
-		return report_error(r, ST_INPUT, "worker '%s' cannot be used: %s", name,
-		                    s->worker->broken);
 	s->parameters = json_object();
-	for (int k = 0; k < s->i->n_extra && st == ST_OK; k++) {
-		const char *key = s->i->extra[2 * k], *value = s->i->extra[2 * k + 1];
-		st = roster_check(s->worker, key, value, r);
-		json_set_text(s->parameters, key, value);
-	}
-	return st;
+	for (int k = 0; k < s->i->n_extra; k++)
+		json_set_text(s->parameters, s->i->extra[2 * k], s->i->extra[2 * k + 1]);
+	s->order.parameters = s->parameters;
 }
 
-/* Where it is to run; the setting counts where nothing is said. */
-static enum status check_place(struct submission *s, const struct project *p)
+/* "12,13:any" */
+static enum status take_after(struct submission *s)
 {
-	const struct report *r = &s->i->report;
-	const char *on = invocation_value(s->i, "--on");
-	struct settings settings = { 0 };
+	const char *after = invocation_value(s->i, "--after");
 
-	if (on && strcmp(on, "local") && strcmp(on, "slurm"))
-		return report_error(r, ST_PARAMETER, "--on is '%s'; it must be local or slurm", on);
-	if (s->shards > 1 && !json_flag(s->worker->description, "shards", false))
-		return report_error(r, ST_PARAMETER,
-		                    "--shards: worker %s does its work as a whole; leave it out",
-		                    s->worker->name);
-	enum status st = settings_read(&settings, p, r);
-	if (st != ST_OK)
-		return st;
-	s->on = strdup(on ? on : settings.value[SETTING_LAUNCHER]);
-	settings_finish(&settings);
-	return s->on ? ST_OK : report_error(r, ST_RESOURCE, "memory ran out");
-}
-
-static enum status check_options(struct submission *s, const struct project *project)
-{
-	const struct invocation *i = s->i;
-	enum status st = invocation_integer(i, "--priority", -100, 100, 0, &s->priority);
-	const char *after = invocation_value(i, "--after");
-
-	if (st == ST_OK)
-		st = invocation_integer(i, "--threads", 1, 1024, 0, &s->threads);
-	if (st == ST_OK)
-		st = invocation_integer(i, "--memory", 1, 1L << 30, 0, &s->memory);
-	if (st == ST_OK)
-		st = invocation_integer(i, "--shards", 1, SHARDS_MAX, 1, &s->shards);
-	if (st == ST_OK)
-		st = check_place(s, project);
-	const char *wall = invocation_value(i, "--wall");
-	if (st == ST_OK && wall && (!number_parse(wall, &s->wall) || !(s->wall > 0)))
-		return report_error(&i->report, ST_PARAMETER,
-		                    "--wall is '%s'; it must be seconds, more than 0", wall);
-	s->after = json_array();
-	s->after_any = json_array();
-	for (const char *p = after; st == ST_OK && p && *p; p += *p == ',') {
+	s->order.after = s->after = json_array();
+	s->order.after_any = s->after_any = json_array();
+	for (const char *p = after; p && *p; p += *p == ',') {
 		int64_t id;
 		const char *end = p + strlen(p);
 		bool good = number_read_integer(&p, end, &id) && id > 0;
@@ -162,13 +95,39 @@ static enum status check_options(struct submission *s, const struct project *pro
 		p += any ? 4 : 0;
 		if (!good || (*p && *p != ','))
 			return report_error(
-			        &i->report, ST_PARAMETER,
+			        &s->i->report, ST_PARAMETER,
 			        "--after is '%s'; it must be the numbers of jobs, by comma, each with "
 			        ":any behind it where any end will do",
 			        after);
 		json_array_append_new(any ? s->after_any : s->after, json_integer(id));
 	}
-	return st;
+	return ST_OK;
+}
+
+static enum status take_options(struct submission *s)
+{
+	const struct invocation *i = s->i;
+	struct work_order *o = &s->order;
+	const char *wall = invocation_value(i, "--wall");
+	enum status st = invocation_integer(i, "--priority", -100, 100, 0, &o->priority);
+
+	if (st == ST_OK)
+		st = invocation_integer(i, "--threads", 1, 1024, 0, &o->threads);
+	if (st == ST_OK)
+		st = invocation_integer(i, "--memory", 1, 1L << 30, 0, &o->memory_mib);
+	if (st == ST_OK)
+		st = invocation_integer(i, "--shards", 1, SHARDS_MAX, 1, &o->shards);
+	if (st == ST_OK && wall && (!number_parse(wall, &o->wall_s) || !(o->wall_s > 0)))
+		st = report_error(&i->report, ST_PARAMETER,
+		                  "--wall is '%s'; it must be seconds, more than 0", wall);
+	o->output = invocation_value(i, "--output");
+	o->group = invocation_value(i, "--group");
+	o->on = invocation_value(i, "--on");
+	o->partition = invocation_value(i, "--partition");
+	o->account = invocation_value(i, "--account");
+	o->time = invocation_value(i, "--time");
+	o->force = invocation_flag(i, "--force");
+	return st == ST_OK ? take_after(s) : st;
 }
 
 /* Add what the import of one argument gave: {"entities":[{"number","kind","path"}]}. */
@@ -179,16 +138,16 @@ static enum status add_inputs(struct submission *s, const char *argument, const 
 	json_t *e;
 	char *path = NULL, *selector = NULL;
 
-	struct input *more = reallocarray(s->inputs, s->n_inputs + n + 1, sizeof *more);
+	struct work_input *more = reallocarray(s->inputs, s->n_inputs + n + 1, sizeof *more);
 	if (!more || model_split_name(argument, &path, &selector) != ST_OK)
 		return report_error(&s->i->report, ST_RESOURCE, "memory ran out");
 	s->inputs = more;
 	json_array_foreach(entities, k, e)
 	{
-		s->inputs[s->n_inputs++] = (struct input){
-			.hash_path = strdup(json_text(e, "path", "")),
-			.name = strdup(path_file_name(path)),
-			.path = path_absolute(path, NULL),
+		s->inputs[s->n_inputs++] = (struct work_input){
+			.path = strdup(json_text(e, "path", "")),
+			.file_name = strdup(path_file_name(path)),
+			.path_name = path_absolute(path, NULL),
 			.number = json_int(e, "number", 0),
 			.alone = n == 1,
 		};
@@ -212,137 +171,6 @@ static enum status read_inputs(struct submission *s, const struct project *p)
 	return st;
 }
 
-/* Extension of the worker's own output, ".map.exr". */
-static const char *own_extension(const struct submission *s)
-{
-	const json_t *outputs = json_object_get(s->worker->description, "outputs");
-
-	return json_text(json_array_get(outputs, 0), "extension", "");
-}
-
-/* Basic name of the results, absolute: -o or the input's name, with the entity's number. */
-static char *output_name(const struct submission *s, const struct input *in, bool numbered)
-{
-	const char *o = invocation_value(s->i, "--output"), *extension = own_extension(s);
-	char *name = o ? strdup(o) : path_basic_name(in->name);
-
-	if (name && o && *extension && path_has_suffix(name, extension) &&
-	    strlen(name) > strlen(extension))
-		name[strlen(name) - strlen(extension)] = 0;
-	char *full = name ? path_absolute(name, NULL) : NULL;
-	free(name);
-	if (full && numbered) {
-		char *with = text_print("%s-%lld", full, (long long)in->number);
-		free(full);
-		full = with;
-	}
-	return full;
-}
-
-/* The job over inputs first .. first + n - 1. New reference. */
-static json_t *make_job(const struct submission *s, const char *group, size_t first, size_t n,
-                        bool numbered)
-{
-	const struct input *in = &s->inputs[first];
-	json_t *o = json_object(), *inputs = json_array();
-	char *output = output_name(s, in, numbered);
-
-	for (size_t k = first; k < first + n; k++)
-		json_array_append_new(
-		        inputs, json_pack("{s:s, s:n}", "path", s->inputs[k].hash_path, "entity"));
-	json_set_text(o, "worker", s->worker->name);
-	json_set_text(o, "file_name", in->name);
-	json_set_text(o, "path_name", in->path);
-	json_set_text(o, "group", group);
-	json_set_text(o, "output", output);
-	json_set_int(o, "priority", s->priority);
-	json_set_int(o, "threads", s->threads);
-	json_set_int(o, "memory_mib", s->memory);
-	json_set_text(o, "on", s->on);
-	json_set_int(o, "shards", s->shards);
-	json_set_text(o, "partition", invocation_value(s->i, "--partition"));
-	json_set_text(o, "account", invocation_value(s->i, "--account"));
-	json_set_text(o, "time", invocation_value(s->i, "--time"));
-	json_object_set_new(o, "inputs", inputs);
-	json_object_set(o, "parameters", s->parameters);
-	json_object_set(o, "after", s->after);
-	json_object_set(o, "after_any", s->after_any);
-	if (s->wall > 0)
-		json_object_set_new(o, "wall_limit_s", json_real(s->wall));
-	json_object_set_new(o, "force", json_boolean(invocation_flag(s->i, "--force")));
-	free(output);
-	return o;
-}
-
-static enum status send_jobs(const struct submission *s, struct connection *c, json_t *jobs,
-                             struct job_list *list)
-{
-	json_t *body = json_pack("{s:o}", "jobs", jobs);
-
-	if (!body)
-		return report_error(&s->i->report, ST_RESOURCE, "memory ran out");
-	return client_request(c->client, MESSAGE_SUBMIT, body, job_list_add, NULL, list,
-	                      &s->i->report);
-}
-
-static bool is_scene(const struct submission *s)
-{
-	return json_flag(s->worker->description, "scene", false);
-}
-
-/* Results of files of one name in different folders would overwrite each other. */
-static enum status check_names(const struct submission *s, size_t each)
-{
-	for (size_t a = 0; a < s->n_inputs && each < s->n_inputs; a++)
-		for (size_t b = 0; b < a; b++)
-			if (strcmp(s->inputs[a].path, s->inputs[b].path) &&
-			    !strcmp(s->inputs[a].name, s->inputs[b].name))
-				return report_error(
-				        &s->i->report, ST_PARAMETER,
-				        "results of '%s' and '%s' would have the same names; submit "
-				        "them one by one with -o",
-				        s->inputs[b].path, s->inputs[a].path);
-	return ST_OK;
-}
-
-static enum status make_jobs(const struct submission *s, struct connection *c,
-                             struct job_list *list)
-{
-	const char *given = invocation_value(s->i, "--group");
-	size_t each = is_scene(s) ? s->n_inputs : 1, room = 0;
-	char *own = NULL;
-	enum status st = ST_OK;
-	json_t *jobs = json_array();
-
-	if (!given && each < s->n_inputs) {
-		char *base = path_basic_name(s->inputs[0].name);
-		own = base ? text_print("%s-%s", base, s->worker->name) : NULL;
-		free(base);
-	}
-	st = check_names(s, each);
-	for (size_t k = 0; k < s->n_inputs && st == ST_OK; k += each) {
-		bool given_name = invocation_value(s->i, "--output") != NULL;
-		bool numbered = each < s->n_inputs && (given_name || !s->inputs[k].alone);
-		json_t *job = make_job(s, given ? given : own, k, each, numbered);
-		char *text = job ? json_write(job, false) : NULL;
-		size_t size = text ? strlen(text) : 0;
-		free(text);
-		if (room + size > PACKET_ROOM && json_array_size(jobs)) {
-			st = send_jobs(s, c, jobs, list);
-			jobs = json_array();
-			room = 0;
-		}
-		json_array_append_new(jobs, job);
-		room += size;
-	}
-	if (st == ST_OK)
-		st = send_jobs(s, c, jobs, list);
-	else
-		json_decref(jobs);
-	free(own);
-	return st;
-}
-
 enum status submission_send(const struct invocation *i, struct connection *c, struct job_list *list)
 {
 	struct submission s = { .i = i };
@@ -353,30 +181,33 @@ enum status submission_send(const struct invocation *i, struct connection *c, st
 		return report_error(&i->report, ST_PARAMETER,
 		                    "name a worker and at least one input; see batten %s --help",
 		                    i->command->name);
+	s.order.worker = i->words[0];
+	take_parameters(&s);
 	enum status st = project_find(&p, NULL, &i->report);
 	if (st == ST_OK)
-		st = check_worker(&s, &p);
+		st = take_options(&s);
 	if (st == ST_OK)
-		st = check_options(&s, &p);
+		st = work_order_check(&s.order, &p, &i->report);
 	if (st == ST_OK)
 		st = project_make(&p, &i->report);
 	if (st == ST_OK)
 		st = read_inputs(&s, &p);
 	if (st == ST_OK)
 		st = connection_open(c, i, true);
+	s.order.inputs = s.inputs;
+	s.order.n_inputs = s.n_inputs;
 	if (st == ST_OK)
-		st = make_jobs(&s, c, list);
+		st = work_order_send(&s.order, c->client, job_list_add, list, &i->report);
 	for (size_t k = 0; k < s.n_inputs; k++) {
-		free(s.inputs[k].hash_path);
-		free(s.inputs[k].name);
-		free(s.inputs[k].path);
+		free((char *)s.inputs[k].path);
+		free((char *)s.inputs[k].file_name);
+		free((char *)s.inputs[k].path_name);
 	}
 	free(s.inputs);
-	free(s.on);
 	json_decref(s.parameters);
 	json_decref(s.after);
 	json_decref(s.after_any);
-	roster_finish(&s.roster);
+	work_order_finish(&s.order);
 	project_finish(&p);
 	return st;
 }
