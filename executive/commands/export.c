@@ -2,14 +2,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
-#include "base.h"
-#include "csv.h"
-#include "export_mesh.h"
-#include "g2.h"
-#include "iges.h"
 #include "json.h"
+#include "model_write.h"
 #include "number.h"
 #include "path.h"
 #include "reading.h"
@@ -25,57 +20,9 @@ static const struct option_row export_options[] = {
 	{ 0 },
 };
 
-static bool any(const struct entity *e)
-{
-	(void)e;
-	return true;
-}
-
-static bool is_surface(const struct entity *e)
-{
-	return e->kind == ENTITY_SURFACE;
-}
-
-static bool is_points(const struct entity *e)
-{
-	return e->kind == ENTITY_POINTS;
-}
-
-static bool is_spline(const struct entity *e)
-{
-	return e->kind == ENTITY_CURVE || e->kind == ENTITY_SURFACE ||
-	       (e->kind == ENTITY_CURVE_ON_SURFACE && e->space.order > 0);
-}
-
-/* A format: who writes it, and which entities it can hold. */
-static const struct format {
-	const char *extension, *holds;
-	bool (*takes)(const struct entity *e);
-	enum status (*write)(const struct model *m, const char *path, const struct report *r);
-	mesh_writer *write_mesh;
-} formats[] = {
-	{ ".base", "all geometry", any, base_write, NULL },
-	{ ".csv", "points", is_points, csv_write, NULL },
-	{ ".g2", "curves, surfaces and points in space", g2_holds, g2_write, NULL },
-	{ ".iges", "curves and surfaces", is_spline, iges_write, NULL },
-	{ ".igs", "curves and surfaces", is_spline, iges_write, NULL },
-	{ ".obj", "surfaces as triangles", is_surface, NULL, obj_write },
-	{ ".ply", "surfaces as triangles", is_surface, NULL, ply_write },
-	{ ".stl", "surfaces as triangles", is_surface, NULL, stl_write },
-};
-
-static const struct format *find_format(const char *path)
-{
-	const char *extension = path_extension(path);
-	for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
-		if (!strcasecmp(extension, formats[i].extension))
-			return &formats[i];
-	return NULL;
-}
-
 /* What is to be written, from all the files named. */
 struct collection {
-	const struct format *format;
+	const struct model_format *format;
 	struct model all;
 	const char *first; /* file that gave the unit */
 	int left_out;      /* entities that the format cannot hold */
@@ -113,7 +60,7 @@ static enum status collect(struct collection *c, struct model *m, const struct e
 		struct entity *e = &m->entities[k];
 		const bool meant = chosen ? e == chosen : e->number > 0;
 		const bool needed =
-		        c->format->takes == any && (chosen ? k == base : e->number == 0);
+		        c->format->all && (chosen ? k == base : e->number == 0);
 		place[k] = -1;
 		if (meant && !c->format->takes(e)) {
 			c->left_out++;
@@ -229,26 +176,21 @@ static enum status export_all(const struct invocation *i, struct collection *c, 
 		                    c->format->holds);
 	if (c->left_out)
 		report_warning(r, "%d left out: '%s' holds %s", c->left_out, to, c->format->holds);
-	if (c->format->write_mesh)
-		return export_mesh(&c->all, c->format->write_mesh, to, tolerance, angle, f, r);
-	return c->format->write(&c->all, to, r);
+	return model_write(&c->all, c->format, to, tolerance, angle, f, r);
 }
 
 static int export_run(const struct invocation *i)
 {
 	const char *to = invocation_value(i, "--to");
-	struct collection c = { .format = to ? find_format(to) : NULL };
+	struct collection c = { 0 };
 	struct mesh_figures figures = { 0 };
 
 	if (!i->n_words || !to)
 		return status_exit(report_error(&i->report, ST_PARAMETER,
 		                                "name what to export, and the file with --to"));
+	c.format = model_format_find(to, &i->report);
 	if (!c.format)
-		return status_exit(report_error(
-		        &i->report, ST_PARAMETER,
-		        "'%s': the extension says no format that can be written; there are .base .csv "
-		        ".g2 .iges .igs .obj .ply .stl",
-		        to));
+		return status_exit(ST_PARAMETER);
 	model_init(&c.all);
 	enum status st = export_all(i, &c, to, &figures);
 	int rc = status_exit(st);

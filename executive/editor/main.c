@@ -8,7 +8,11 @@ static const struct mode {
 	const char *name;
 	int (*run)(int argc, char **argv); /* what stands behind the name; exit status */
 } modes[] = {
+#ifdef BATTEN_VIEW
 	{ "--render", mode_render },
+#endif
+	{ "--routines", mode_routines },
+	{ "--script", mode_script },
 };
 enum { N_MODES = sizeof modes / sizeof *modes };
 

@@ -5,7 +5,10 @@
 
 #include <jansson.h>
 
+#include <stdatomic.h>
+
 #include "project.h"
+#include "stats.h"
 #include "world.h"
 
 enum routine_kind { ROUTINE_SETTING, ROUTINE_SHOW, ROUTINE_EDIT, ROUTINE_JOB, ROUTINE_MENU };
@@ -46,7 +49,10 @@ struct argument_row {
 	const char *choices; /* "linear|arsinh" */
 	const char *pattern; /* of a FILE: "*.map.exr *.base", or NULL */
 	const char *help;    /* one sentence */
-	bool optional;       /* may be left out though it has no default */
+	bool optional;       /* may be left out, or given as auto, though it has no default */
+	/* "shading.azimuth raytrace.azimuth": defaults of later jobs that it sets, and whose value is its own
+	 * default; or NULL */
+	const char *stores;
 };
 
 /* Arguments as given, checked: name and value in script form. */
@@ -59,9 +65,11 @@ struct arguments {
  * What a routine works with. Everything is borrowed. say tells the user what happened in a sentence
  * ("94 branches"); report takes errors. stop may be NULL.
  */
+struct routine;
 struct act {
 	struct world *world;
 	const struct project *project;
+	const struct routine *routine; /* the one that runs; set by routine_call */
 	struct report report;
 	void (*say)(void *data, const char *text);
 	void (*progress)(void *data, double fraction, const char *what);
@@ -70,6 +78,11 @@ struct act {
 	bool wait; /* a job routine returns at the job's end (wait=yes) or when it is queued */
 	int64_t jobs[64]; /* set by a job routine: the ids it queued */
 	int n_jobs;
+	bool journal; /* what was done is written to the journal */
+	bool quit;    /* set by QUIT */
+	/* The view as a picture (EXPORT PICTURE); NULL: there is no view. */
+	enum status (*picture)(const struct world *w, const char *path, const char *view, int width,
+	                       int height, const struct report *r);
 };
 
 typedef enum status routine_run(struct act *a, const struct arguments *given);
@@ -80,8 +93,10 @@ struct routine {
 	const char *worker; /* of a job: arguments are those of its description, else NULL */
 	const struct argument_row *arguments; /* NULL: none */
 	routine_run *run;                     /* NULL: not available yet */
-	const char *needs; /* what must be there: "surface", "curve", "job", or NULL */
-	int detail;        /* for rows that share a function: a quantity, a state event, ... */
+	const char *
+	        needs; /* what must be current or there: "surface", "curve", "space curve", "curve on
+	                      surface", "thing", "undo", "redo", or NULL */
+	int detail;    /* for rows that share a function: a quantity, a state event, ... */
 };
 
 /* Every leaf of the menus, by number; ends with code NULL. */
@@ -104,8 +119,16 @@ enum status argument_check(const struct argument_row *row, const char *value, co
 /* Candidates that begin with (files: contain) `begin`, best first; a json array of strings. */
 json_t *argument_candidates(const struct argument_row *row, const char *begin, const struct act *a);
 
-/* Check, fill in defaults, run. Errors: the routine's; ST_PARAMETER names the argument. */
+/* Check, fill in defaults, run, write the journal. Errors: the routine's; ST_PARAMETER names the argument. */
 enum status routine_call(const struct routine *t, struct act *a, const struct arguments *given);
+
+/* A job that a routine started without waiting has ended: what it made takes the place of its part file
+ * in what is shown. For the window, with each record that it gets. */
+void routine_job_ended(struct world *w, const struct Stats *s);
+
+/* All leaves as `batten routines --json` gives them, without paths: a list of {"code","kind","available",
+ * "arguments"}; p: for the workers' descriptions. New reference, NULL for want of memory. */
+json_t *routines_describe(struct act *a);
 
 /* A line of a script: CODE KEY=VALUE... # comment. Values with blanks in "...", \" inside. A line with
  * nothing on it is fine (*t NULL). Errors: ST_PARAMETER with column. script_line_finish frees. */

@@ -111,8 +111,27 @@ enum status world_take(struct world *w, struct model *m, const char *path, const
 	return st == ST_OK ? st : out_of_memory(r);
 }
 
-enum status world_open(struct world *w, const char *path, const char *entities,
-                       const struct progress *p, const struct report *r)
+/* Those of the kinds wanted. Errors: ST_INPUT where there is none. */
+static enum status choose_kinds(const struct model *m, unsigned kinds, bool given, bool *chosen,
+                                const struct report *r)
+{
+	int n = 0;
+
+	for (int k = 0; k < m->n; k++) {
+		const struct entity *e = &m->entities[k];
+		const bool wanted = kinds & 1u << e->kind;
+		if (!given)
+			chosen[k] = wanted && e->number > 0;
+		else if (chosen[k] && !wanted)
+			return report_error(r, ST_INPUT, "entity %d of '%s' is a %s", e->number,
+			                    m->file, entity_kind_name(e->kind));
+		n += chosen[k];
+	}
+	return n ? ST_OK : report_error(r, ST_INPUT, "'%s' has no entity of that kind", m->file);
+}
+
+enum status world_open_kinds(struct world *w, const char *path, const char *entities,
+                             unsigned kinds, const struct progress *p, const struct report *r)
 {
 	struct model m;
 	char *full = path_absolute(path, w->folder);
@@ -127,10 +146,10 @@ enum status world_open(struct world *w, const char *path, const char *entities,
 	bool *chosen = calloc((size_t)m.n + 1, sizeof *chosen);
 	if (!chosen)
 		st = out_of_memory(r);
-	for (int k = 0; k < m.n && st == ST_OK && !entities; k++)
-		chosen[k] = m.entities[k].number > 0;
 	if (st == ST_OK && entities)
 		st = choose(&m, entities, chosen, r);
+	if (st == ST_OK)
+		st = choose_kinds(&m, kinds, entities != NULL, chosen, r);
 	if (st == ST_OK) {
 		choose_bases(&m, chosen);
 		st = world_take(w, &m, full, chosen, r);
@@ -144,4 +163,10 @@ enum status world_open(struct world *w, const char *path, const char *entities,
 	free(full);
 	model_finish(&m);
 	return st;
+}
+
+enum status world_open(struct world *w, const char *path, const char *entities,
+                       const struct progress *p, const struct report *r)
+{
+	return world_open_kinds(w, path, entities, ~0u, p, r);
 }

@@ -136,3 +136,21 @@ enum status world_save(struct world *w, int id, const char *path, const struct r
 	free(full);
 	return st;
 }
+
+void world_discard(struct world *w)
+{
+	for (int k = w->n - 1; k >= 0; k--) {
+		struct Ful *f = w->things[k];
+		if (f->saved)
+			continue;
+		f->saved = f->file != NULL;
+		if (f->saved)
+			continue;
+		thing_take_out(w, k);
+		ful_destroy(f);
+	}
+	history_finish(&w->undo);
+	history_finish(&w->redo);
+	thing_mend_current(w);
+	w->revision++;
+}

@@ -52,6 +52,8 @@ static json_t *sight_json(const struct sight *s)
 	                  s->light_intensity, "specular", rgb_json(s->specular), "reflectivity",
 	                  s->reflectivity, "bell", s->bell, "all_curvatures", s->all_curvatures);
 
+	json_set_number(o, "near", s->near_);
+	json_set_number(o, "far", s->far_);
 	if (s->has_background)
 		json_object_set_new(o, "background", rgb_json(s->background));
 	if (s->has_camera)
@@ -144,7 +146,8 @@ static json_t *rest_json(const struct world *w, json_t *o)
 		json_array_append_new(defaults,
 		                      json_pack("[s, s, s]", w->presets[k].worker,
 		                                w->presets[k].parameter, w->presets[k].value));
-	json_object_set_new(o, "current", json_pack("[i, i]", w->current[0], w->current[1]));
+	json_object_set_new(o, "current",
+	                    json_pack("[i, i, i]", w->current[0], w->current[1], w->selected));
 	json_object_set_new(o, "sight", sight_json(&w->sight));
 	json_object_set_new(o, "overlays", overlays_json(w));
 	json_object_set_new(o, "marks", marks);

@@ -82,6 +82,8 @@ static void sight_read(struct sight *s, const json_t *o)
 	s->light_intensity = json_number(o, "light_intensity", s->light_intensity);
 	s->specular = rgb_read(json_object_get(o, "specular"), s->specular);
 	s->reflectivity = json_number(o, "reflectivity", s->reflectivity);
+	s->near_ = json_number(o, "near", 0);
+	s->far_ = json_number(o, "far", 0);
 	s->bell = json_flag(o, "bell", s->bell);
 	s->all_curvatures = json_flag(o, "all_curvatures", false);
 	s->has_background = json_is_array(back);
@@ -212,6 +214,7 @@ static void read_rest(struct world *w, const json_t *o, const struct report *r)
 
 	for (size_t c = 0; c < 2; c++)
 		w->current[c] = (int)json_integer_value(json_array_get(current, c));
+	w->selected = (int)json_integer_value(json_array_get(current, 2));
 	thing_mend_current(w);
 	sight_read(&w->sight, json_object_get(o, "sight"));
 	read_overlays(w, json_object_get(o, "overlays"), r);

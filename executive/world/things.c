@@ -195,8 +195,17 @@ const struct Ful *world_current(const struct world *w, bool curve)
 
 void thing_make_current(struct world *w, const struct Ful *f)
 {
+	w->selected = f->id;
 	if (ful_is_curve(f) || ful_is_surface(f))
 		w->current[ful_is_curve(f)] = f->id;
+}
+
+const struct Ful *world_selected(const struct world *w)
+{
+	const struct Ful *f = thing_get(w, w->selected);
+
+	f = f ? f : world_current(w, false);
+	return f ? f : world_current(w, true);
 }
 
 /* A current thing that is no longer open gives way to the last of its kind. */

@@ -75,6 +75,7 @@ struct mark {
 struct sight {
 	struct camera camera; /* width and height are the window's concern */
 	bool has_camera;
+	double near_, far_; /* of the view, from the eye, file units; 0: as it fits */
 	struct rgb background;
 	bool has_background;
 	double light_azimuth, light_incidence, light_intensity; /* degrees, 0 .. 1 */
@@ -102,6 +103,8 @@ const struct Ful *world_by_id(const struct world *w, int id); /* NULL: none */
  * only one has that. Errors: NULL, and the sentence names what is open. */
 const struct Ful *world_find(const struct world *w, const char *name, const struct report *r);
 const struct Ful *world_current(const struct world *w, bool curve); /* NULL: none */
+const struct Ful *
+world_selected(const struct world *w);          /* the one of both that was made current last */
 unsigned world_revision(const struct world *w); /* grows with every change of anything here */
 bool world_unsaved(const struct world *w);
 
@@ -110,6 +113,10 @@ bool world_unsaved(const struct world *w);
  * Not an edit that undo takes back. Errors: as model_read. */
 enum status world_open(struct world *w, const char *path, const char *entities,
                        const struct progress *p, const struct report *r);
+/* Likewise only those whose kind is in `kinds` (a bit 1 << enum entity_kind each), and the surfaces of curves
+ * on surface. Errors: ST_INPUT where there are none, or one chosen is of another kind. */
+enum status world_open_kinds(struct world *w, const char *path, const char *entities,
+                             unsigned kinds, const struct progress *p, const struct report *r);
 
 /*
  * Edits. Each is one step of undo and is named ("move point 5"). `e` is moved in.
@@ -164,6 +171,10 @@ enum status world_save(struct world *w, int id, const char *path, const struct r
 enum status world_set_default(struct world *w, const char *worker, const char *parameter,
                               const char *value);
 const char *world_default(const struct world *w, const char *worker, const char *parameter);
+
+/* Edits that were not saved are given up: the session keeps what the files have, and nothing of what lies
+ * in none; that goes. For the end: undo goes, too. */
+void world_discard(struct world *w);
 
 /* The things as a model, for writers: of each id the geometry, the surface of a curve on surface with it.
  * The caller finishes *out. Errors: ST_PARAMETER (no such thing, two units), ST_RESOURCE. */

@@ -31,6 +31,7 @@ struct world {
 	int n;
 	int last_id;
 	int current[2]; /* ids: surface, curve; 0: none */
+	int selected;   /* id of the last one made current */
 	unsigned revision;
 	struct history undo, redo;
 	struct step open; /* the edits since world_step_begin */

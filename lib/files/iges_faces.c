@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "construct.h"
-#include "project.h"
+#include "project_curve.h"
 #include "refine.h"
 
 /* Loops that do not close within the file's tolerance are closed within this part of the size. */

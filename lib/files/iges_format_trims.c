@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "project.h"
+#include "project_curve.h"
 
 /* How far the curves in space may leave the surface, in its sizes. */
 static const double space_within = 1e-7;

@@ -3,7 +3,7 @@
 #define BATTEN_IGES_TRIMMER_H
 
 #include "iges_course.h"
-#include "project.h"
+#include "project_curve.h"
 
 /* A face being trimmed. */
 struct trimmer {

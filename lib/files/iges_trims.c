@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "project.h"
+#include "project_curve.h"
 #include "refine.h"
 
 static const double far_from = 1e-2;      /* of the size: a curve that belongs to something else */

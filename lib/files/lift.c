@@ -1,5 +1,5 @@
 /* lift.c - curves in a surface's u,v plane lifted into space. */
-#include "project.h"
+#include "project_curve.h"
 
 #include <stdlib.h>
 

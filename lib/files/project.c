@@ -1,5 +1,5 @@
 /* project.c - curves in space brought down to a surface's u,v plane. */
-#include "project.h"
+#include "project_curve.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
-/* project.h - curves that lie on a surface, in space and in its u,v plane, one made from the other.
+/* project_curve.h - curves that lie on a surface, in space and in its u,v plane, one made from the other.
  * Private to this folder. */
-#ifndef BATTEN_PROJECT_H
-#define BATTEN_PROJECT_H
+#ifndef BATTEN_PROJECT_CURVE_H
+#define BATTEN_PROJECT_CURVE_H
 
 #include "curve.h"
 #include "surface.h"
