@@ -9,6 +9,8 @@
 #include "private.h"
 #include "text.h"
 
+enum { SIZE_MAX_PX = 65536 };
+
 const char *argument_text(const struct arguments *g, const char *name)
 {
 	for (int k = 0; k < g->n; k++)
@@ -193,10 +195,13 @@ static enum status check_size(const struct check *c)
 
 	if (!argument_pair(c->value, 'x', &a, &b) || a != (double)(long)a || b != (double)(long)b)
 		return wrong(c, "two whole numbers as 640x480");
-	enum status st = in_range(c, a);
-	if (st == ST_OK && c->row->min == c->row->max && (a < 1 || b < 1 || a > 65536 || b > 65536))
-		return wrong(c, "1 to 65536 each");
-	return st == ST_OK && c->row->min != c->row->max ? in_range(c, b) : st;
+	if (c->row->min < c->row->max) {
+		const enum status st = in_range(c, a);
+		return st == ST_OK ? in_range(c, b) : st;
+	}
+	return a >= 1 && b >= 1 && a <= SIZE_MAX_PX && b <= SIZE_MAX_PX
+	               ? ST_OK
+	               : wrong(c, "1x1 to %dx%d", SIZE_MAX_PX, SIZE_MAX_PX);
 }
 
 static enum status check_view(const struct check *c)
