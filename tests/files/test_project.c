@@ -9,7 +9,7 @@
 
 #include "construct.h"
 #include "hermite.h"
-#include "project.h"
+#include "project_curve.h"
 #include "refine.h"
 
 /* ---- cubics */
