@@ -299,7 +299,15 @@ const struct search_model model_search = {
 	.found = 6,
 	.all = 173,
 };
-const struct search_model model_search_none = { .typed = "xyzzy", .caret = 5, .all = 173 };
+const struct search_model model_search_none = {
+	.typed = "isofote",
+	.caret = 7,
+	.results = { { "ISOPHOTES", "INTERROGATION › SURFACE", "menu", "N51", false },
+	             { "SHOW ISOPHOTE", "INTERROGATION › SURFACE › ISOPHOTES", "show", "V91",
+	               false } },
+	.n = 2,
+	.all = 173,
+};
 
 const struct help_model model_help = {
 	.code = "V80",
@@ -313,11 +321,11 @@ const struct help_model model_help = {
 	        "Values come from the surface itself at each sample, not from triangles. Where a "
 	        "map of the same geometry is there, it is shown at once.\n\n"
 	        "arguments\n"
-	        "file  teapot.map.exr  the map to show\n"
-	        "range  2 – 98 % of area  percentiles, or two numbers in 1/m², below and above which "
+	        "file | a name | the map to show\n"
+	        "range | 2 – 98 % of area | percentiles, or two numbers in 1/m², below and above which "
 	        "the colors stay the same\n"
-	        "scale  arsinh  linear, or arsinh for wide ranges\n"
-	        "symmetric  yes  zero in the middle of the key\n\n"
+	        "scale | arsinh | linear, or arsinh for wide ranges\n"
+	        "symmetric | yes | zero in the middle of the key\n\n"
 	        "result\n"
 	        "The surface in its colors, and their key at the view's right edge. Drag an end of "
 	        "the key to set the range by hand.\n\n"

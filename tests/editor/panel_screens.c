@@ -137,3 +137,38 @@ void screen_draw(cairo_t *cr, const struct screen *s, double width, double heigh
 	layout_place(&l, width, height, true, s->menu_rows);
 	s->paint(cr, &l, k, h);
 }
+
+static const struct box_px mouse_box = { 0, 0, 320, 148 };
+
+static void piece_mouse(cairo_t *cr, const struct look *k)
+{
+	panel_mouse(cr, &mouse_box, &model_mouse, k);
+}
+
+static void piece_chips(cairo_t *cr, const struct look *k)
+{
+	const struct box_px box = { 0, 0, 640, 48 };
+	panel_top(cr, &box, &model_top, k, NULL);
+}
+
+static void piece_probe(cairo_t *cr, const struct look *k)
+{
+	const struct box_px box = { 0, 0, 280, 220 };
+	panel_probe(cr, &box, 0, 0, &model_probe, k);
+}
+
+static void piece_form(cairo_t *cr, const struct look *k)
+{
+	struct layout l;
+	layout_place(&l, 320, 620, true, model_menu_error.n_rows);
+	cairo_translate(cr, 0, -l.form.y);
+	panel_menu(cr, &l, &model_menu_error, k, NULL);
+}
+
+const struct piece pieces[] = {
+	{ "mouse", 320, 148, THEME_DARK, piece_mouse },
+	{ "chips", 640, 48, THEME_LIGHT, piece_chips },
+	{ "probe", 280, 220, THEME_DARK, piece_probe },
+	{ "form", 320, 220, THEME_LIGHT, piece_form },
+};
+const int n_pieces = sizeof pieces / sizeof *pieces;

@@ -19,4 +19,14 @@ extern const int n_screens;
 void screen_draw(cairo_t *cr, const struct screen *s, double width, double height,
                  const struct look *k, struct hits *h);
 
+/* Pieces small enough to keep pictures of. */
+struct piece {
+	const char *name;
+	int width, height;
+	enum theme theme;
+	void (*paint)(cairo_t *cr, const struct look *k);
+};
+extern const struct piece pieces[];
+extern const int n_pieces;
+
 #endif

@@ -115,10 +115,10 @@ void paint_toggle(const struct paint *p, double x, double middle, bool on)
 }
 
 double paint_typed(const struct paint *p, enum label_style style, double x, double middle,
-                   double room, const char *text, int caret)
+                   double room, const char *text, int caret, bool caret_on)
 {
 	const double width = paint_width(p, style, text);
-	const double at = caret < 0 ? width : label_caret(p->cr, style, text, caret);
+	const double at = label_caret(p->cr, style, text, caret);
 	const double half = 0.62 * label_size(style), line = 1.5;
 	if (!text)
 		text = "";
@@ -133,7 +133,7 @@ double paint_typed(const struct paint *p, enum label_style style, double x, doub
 	}
 	paint_text(p, style, TOKEN_TEXT, x - left, middle, 0, text);
 	cairo_restore(p->cr);
-	if (caret >= 0) {
+	if (caret_on) {
 		paint_set(p, TOKEN_ACCENT, 1);
 		cairo_rectangle(p->cr, paint_snap(p, x - left + at + 0.5), middle - half,
 		                paint_px(p, line), 2 * half);

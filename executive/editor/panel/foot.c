@@ -106,8 +106,7 @@ void panel_foot(cairo_t *cr, const struct layout *l, const struct foot_model *m,
 	double end = paint_hints(&p, m, x + wanted, right, middle);
 	if (range > 0 && end - x > 2 * range)
 		end -= paint_cut(&p, LABEL_NOTE, TOKEN_MUTED, end, middle, 1, range, m->range) + 16;
-	x = paint_typed(&p, LABEL_PROMPT, x, middle, end - x, m->typed,
-	                m->caret_on ? m->caret : -1);
+	x = paint_typed(&p, LABEL_PROMPT, x, middle, end - x, m->typed, m->caret, m->caret_on);
 	if (rest > 0)
 		paint_cut(&p, LABEL_PROMPT, TOKEN_MUTED, x + 3, middle, 0, end - x - 3, m->rest);
 	if (m->n_candidates > 0)

@@ -115,7 +115,7 @@ static void paint_field(const struct form *f, const struct form_field *field, in
 		       8;
 	const double room = width - 16 - unit;
 	if (field->focused)
-		paint_typed(p, LABEL_FORM, x + 8, middle, room, field->value, field->caret);
+		paint_typed(p, LABEL_FORM, x + 8, middle, room, field->value, field->caret, true);
 	else
 		paint_path(p, LABEL_FORM, TOKEN_TEXT, x + 8, middle, room, field->value);
 	paint_hit(p, HIT_FIELD, i, 0, x, middle - 12, width, FIELD);

@@ -118,6 +118,7 @@ static void flow_example(struct flow *f, const struct help_reader *r)
 	const double tall = example_lines(f, string(&r->text), false);
 	if (f->paint) {
 		paint_fill(f->p, f->x, f->y, f->width, tall, 6, TOKEN_FIELD);
+		paint_border(f->p, f->x, f->y, f->width, tall, 6, 1, TOKEN_LINE);
 		example_lines(f, string(&r->text), true);
 	}
 	f->y += tall + 8;

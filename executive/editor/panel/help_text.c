@@ -14,6 +14,7 @@ static const struct {
 	{ "result", "What comes out", SECTION_TEXT },
 	{ "example", "In a script", SECTION_EXAMPLE },
 	{ "see also", "See also", SECTION_SEE },
+	{ "see", "See also", SECTION_SEE },
 };
 enum { N_SECTIONS = sizeof sections / sizeof *sections };
 
@@ -52,11 +53,16 @@ static const char *line_at(const char *at, struct line *l)
 /* Which section begins with this line: its index, -1. */
 static int section_of(const struct line *l)
 {
+	const char *s = l->s;
 	size_t n = l->n;
-	if (n && l->s[n - 1] == ':')
+	if (n && s[n - 1] == ':')
 		n--;
+	if (n && s[0] == ':') {
+		s++;
+		n--;
+	}
 	for (int i = 0; i < N_SECTIONS; i++)
-		if (n == strlen(sections[i].word) && !strncasecmp(l->s, sections[i].word, n))
+		if (n == strlen(sections[i].word) && !strncasecmp(s, sections[i].word, n))
 			return i;
 	return -1;
 }
@@ -72,13 +78,26 @@ static bool is_head(const struct line *l, const char *next)
 	return after.n == 0 || after.indent > 0;
 }
 
-/* Bytes before two blanks or a tab. */
-static size_t cell(const char *s, size_t n)
+static bool is_blank(char c)
 {
-	for (size_t i = 0; i < n; i++)
-		if (s[i] == '\t' || (s[i] == ' ' && i + 1 < n && s[i + 1] == ' '))
-			return i;
-	return n;
+	return c == ' ' || c == '\t';
+}
+
+/* Bytes before a bar between blanks, two blanks or a tab; *next: where the next cell begins. */
+static size_t cell(const char *s, size_t n, size_t *next)
+{
+	size_t i = 0;
+	while (i < n && s[i] != '\t' &&
+	       !(s[i] == ' ' && i + 1 < n && (s[i + 1] == ' ' || s[i + 1] == '|')))
+		i++;
+	*next = i;
+	while (*next < n && is_blank(s[*next]))
+		++*next;
+	if (*next < n && s[*next] == '|')
+		++*next;
+	while (*next < n && is_blank(s[*next]))
+		++*next;
+	return i;
 }
 
 static void add_line(struct text *t, const char *s, size_t n)
@@ -94,16 +113,11 @@ static void read_row(struct help_reader *r, const struct line *l)
 	const char *s = l->s;
 	size_t left = l->n;
 	for (int i = 0; i < 3 && left; i++) {
-		size_t n = i < 2 ? cell(s, left) : left;
+		size_t next = left, n = i < 2 ? cell(s, left, &next) : left;
 		text_add_bytes(cells[i], s, n);
-		s += n;
-		left -= n;
-		while (left && isspace((unsigned char)*s)) {
-			s++;
-			left--;
-		}
+		s += next;
+		left -= next;
 	}
-	/* two cells: a name and its meaning */
 	struct line more;
 	while (*r->at) {
 		const char *next = line_at(r->at, &more);
@@ -148,20 +162,35 @@ static void read_example(struct help_reader *r, const struct line *first)
 	}
 }
 
-/* "V81 MEAN": to the comma, and the reader's place to behind it. */
+/* "V81", "N31": length of the code there, 0. */
+static size_t code_at(const char *s, size_t n)
+{
+	size_t i = 1;
+	if (!n || (s[0] != 'V' && s[0] != 'N'))
+		return 0;
+	while (i < n && isdigit((unsigned char)s[i]))
+		i++;
+	return i > 1 && (i == n || is_blank(s[i]) || s[i] == ',') ? i : 0;
+}
+
+/* "V81 MEAN": up to a comma or the next code; the reader goes on behind it. */
 static void read_link(struct help_reader *r, const struct line *l)
 {
-	const char *comma = memchr(l->s, ',', l->n);
-	size_t n = comma ? (size_t)(comma - l->s) : l->n;
-	size_t code = 0;
-	while (code < n && !isspace((unsigned char)l->s[code]))
+	size_t code = 0, n = 0;
+	while (code < l->n && !is_blank(l->s[code]) && l->s[code] != ',')
 		code++;
+	for (n = code; n < l->n && l->s[n] != ','; n++)
+		if (is_blank(l->s[n]) && code_at(l->s + n + 1, l->n - n - 1))
+			break;
 	text_add_bytes(&r->text, l->s, code);
-	while (code < n && isspace((unsigned char)l->s[code]))
-		code++;
-	text_add_bytes(&r->value, l->s + code, n - code);
-	if (comma)
-		r->at = comma + 1;
+	size_t name = code, end = n;
+	while (name < end && is_blank(l->s[name]))
+		name++;
+	while (end > name && is_blank(l->s[end - 1]))
+		end--;
+	text_add_bytes(&r->value, l->s + name, end - name);
+	if (n < l->n)
+		r->at = l->s + n + 1;
 }
 
 static enum help_block read_block(struct help_reader *r, const struct line *l)

@@ -105,9 +105,9 @@ struct rgb glyph_color(const struct paint *p, enum job_state state);
 void glyph_draw(const struct paint *p, enum job_state state, double x, double y, double radius);
 void glyph_warning(const struct paint *p, double x, double y, double radius);
 
-/* A line being typed: scrolled so that the caret (a byte; -1: none) is seen. Gives the x after it. */
+/* A line being typed: scrolled so that the place of the caret (a byte) is seen. Gives the x after it. */
 double paint_typed(const struct paint *p, enum label_style style, double x, double middle,
-                   double room, const char *text, int caret);
+                   double room, const char *text, int caret, bool caret_on);
 
 /* The text between the separators " › " as it is shown, cut at its beginning where too long. */
 void paint_crumbs(const struct paint *p, double x, double middle, double room, const char *crumbs);

@@ -164,15 +164,15 @@ struct search_model {
 	struct search_result {
 		const char *name, *path, *kind, *code;
 		bool greyed;
-	} results[8];
+	} results[8]; /* where none was found: the nearest, or what was used last */
 	int n, found, all, chosen;
 };
 /*
  * A text of help: paragraphs with an empty line between. A line of one of the words purpose,
  * arguments, result, example, see also (with or without capital and colon) begins that section; so does
  * any other line that stands alone and ends with a colon. In arguments a line is a row of a table: name,
- * value and meaning with two blanks or a tab between, indented lines go on with the meaning. Lines of an
- * example are kept as they are. See also: CODE NAME, by comma or line, each a link.
+ * value and meaning with a bar, two blanks or a tab between, indented lines go on with the meaning. Lines
+ * of an example are kept as they are. See also: codes, each followed by its name or not.
  */
 struct help_model {
 	const char *code, *title, *kind, *path; /* path: "CURVATURE › GAUSSIAN" */

@@ -48,7 +48,8 @@ void panel_search(cairo_t *cr, double width, double height, const struct search_
 	const struct paint p = { cr, k, h };
 	const int n = m->n < 0 ? 0 : m->n < RESULTS ? m->n : RESULTS;
 	const double wide = fmin(WIDTH, width - 2 * EDGE);
-	const double tall = HEAD + 16 + ROW * fmax(n, 1) + FOOT;
+	const int none = m->found <= 0 || !n;
+	const double tall = HEAD + 16 + ROW * (n + none) + FOOT;
 	const double x = floor((width - wide) / 2), y = fmax(fmin(TOP, height - EDGE - tall), EDGE);
 	char found[64];
 	if (wide < 200)
@@ -59,11 +60,12 @@ void panel_search(cairo_t *cr, double width, double height, const struct search_
 	snprintf(found, sizeof found, "%d of %d routines", m->found, m->all);
 	const double count =
 	        paint_text(&p, LABEL_FORM, TOKEN_MUTED, x + wide - 20, y + 28, 1, found);
-	paint_typed(&p, LABEL_TYPED, x + 48, y + 28, wide - 48 - count - 36, m->typed, m->caret);
+	paint_typed(&p, LABEL_TYPED, x + 48, y + 28, wide - 48 - count - 36, m->typed, m->caret,
+	            true);
 	paint_rule(&p, x + 1, y + HEAD, wide - 2);
 	for (int i = 0; i < n; i++)
-		paint_result(&p, m, i, x, y + HEAD + 8 + ROW * i, wide);
-	if (!n)
+		paint_result(&p, m, i, x, y + HEAD + 8 + ROW * (i + none), wide);
+	if (none)
 		paint_cut(&p, LABEL_ENTRY, TOKEN_MUTED, x + EDGE, y + HEAD + 8 + ROW / 2.0, 0,
 		          wide - 2 * EDGE,
 		          m->typed && m->typed[0] ? "No routine has that in its name or help"
