@@ -2,9 +2,11 @@
 #include "board.h"
 
 #include <math.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "path.h"
@@ -15,6 +17,13 @@ void board_init(struct board *b, bool color)
 {
 	*b = (struct board){ .out = stderr, .live = isatty(STDERR_FILENO) };
 	b->color = color && b->live;
+	if (!b->live)
+		return;
+	sigset_t
+	        gone_on; /* looked for at each drawing; a process that is stopped goes on all the same */
+	sigemptyset(&gone_on);
+	sigaddset(&gone_on, SIGCONT);
+	sigprocmask(SIG_BLOCK, &gone_on, NULL);
 }
 
 void board_finish(struct board *b)
@@ -70,12 +79,25 @@ static void draw_line(const struct board *b, const struct Stats *s)
 	fprintf(b->out, " %4s %7s", percent, time);
 }
 
-static int terminal_lines(void)
+/* Does what was drawn last still stand where the cursor believes it does? A terminal of another size has
+ * wrapped it anew, and behind a stop the shell has written. */
+static void look_at_terminal(struct board *b)
 {
-	struct winsize size;
+	struct winsize size = { .ws_row = LINES_FALLBACK };
+	const struct timespec at_once = { 0 };
+	sigset_t gone_on;
 
-	return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 2 ? size.ws_row
-	                                                                       : LINES_FALLBACK;
+	ioctl(STDERR_FILENO, TIOCGWINSZ, &size);
+	if (b->drawn && (size.ws_row != b->rows || size.ws_col != b->columns)) {
+		fputs("\033[H\033[2J", b->out);
+		b->drawn = 0;
+	}
+	b->rows = size.ws_row;
+	b->columns = size.ws_col;
+	sigemptyset(&gone_on);
+	sigaddset(&gone_on, SIGCONT);
+	if (sigtimedwait(&gone_on, NULL, &at_once) == SIGCONT)
+		b->drawn = 0;
 }
 
 /* What goes on is shown before what waits, and that before what is over. */
@@ -88,8 +110,10 @@ static int rank(const struct Stats *s)
 
 static void draw_live(struct board *b)
 {
-	int room = terminal_lines() - 2, n = 0, all = (int)b->list.n;
+	look_at_terminal(b);
+	int room = (b->rows > 3 ? b->rows : 4) - 2, n = 0, all = (int)b->list.n;
 
+	fputs("\033[?7l", b->out); /* a line too long is cut, not wrapped */
 	if (b->drawn)
 		fprintf(b->out, "\033[%dF", b->drawn);
 	for (int r = 0; r < 3 && all > room; r++) /* too many for the screen: the active ones */
@@ -107,7 +131,7 @@ static void draw_live(struct board *b)
 		fprintf(b->out, "and %d more\033[K\n", all - n);
 		n++;
 	}
-	fputs("\033[J", b->out);
+	fputs("\033[J\033[?7h", b->out);
 	b->drawn = n;
 }
 

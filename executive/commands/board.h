@@ -10,6 +10,7 @@ struct board {
 	bool live;            /* a terminal: lines are drawn again in place */
 	bool color;
 	int drawn;            /* lines on the screen */
+	int rows, columns;    /* of the terminal, when they were drawn */
 	enum job_state *told; /* owned: state last told of each job, where it is not live */
 	size_t n_told;
 };
