@@ -40,6 +40,8 @@ static void paint_long(cairo_t *cr, const struct layout *l, const struct look *k
 static void paint_wrong(cairo_t *cr, const struct layout *l, const struct look *k, struct hits *h)
 {
 	around(cr, l, &model_menu_error, &model_mouse, &model_foot_error, &model_top, k, h);
+	panel_tip(cr, l->view.width + l->menu.width, 700, l->form.x + 180, l->form.y + 90,
+	          model_menu_error.fields[1].value, k);
 	panel_bar(cr, &l->view, &model_bar_long, k, h);
 }
 

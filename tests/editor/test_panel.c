@@ -132,6 +132,8 @@ static void test_hits(void **state)
 				const struct hit *a = &c.hits.hit[i];
 				const struct box_px box = { a->x, a->y, a->width, a->height };
 				assert_true(within(&window, a->x, a->y, a->width, a->height, 0));
+				if (a->kind == HIT_TIP)
+					continue;
 				const struct hit *top =
 				        hits_at(&c.hits, a->x + a->width / 2, a->y + a->height / 2);
 				assert_non_null(top);
@@ -154,10 +156,23 @@ static void test_hits(void **state)
 		}
 }
 
+static void point_at(struct look *k, const struct hit *h, bool focus)
+{
+	if (focus) {
+		k->focus_kind = h->kind;
+		k->focus_index = h->index;
+		k->focus_part = h->part;
+	} else {
+		k->hover_kind = h->kind;
+		k->hover_index = h->index;
+		k->hover_part = h->part;
+	}
+}
+
 /* Does it answer the mouse by looks? Squares of color show by their own mark where the mouse is. */
 static bool answers(const struct hit *h)
 {
-	return h->kind != HIT_NONE && h->kind != HIT_COLOR_WHEEL;
+	return h->kind != HIT_NONE && h->kind != HIT_TIP && h->kind != HIT_COLOR_WHEEL;
 }
 
 /* What is under the mouse changes, and only where it can be clicked (and 4 px about it). */
@@ -180,12 +195,8 @@ static void test_hover(void **state)
 			    seen[h->kind]++ >= EACH)
 				continue;
 			canvas_clear(&c);
-			c.look.hover_kind = h->kind;
-			c.look.hover_index = h->index;
-			c.look.hover_part = h->part;
-			cairo_save(c.cr);
+			point_at(&c.look, h, false);
 			screen_draw(c.cr, &screens[s], 1024, 700, &c.look, &c.hits);
-			cairo_restore(c.cr);
 			assert_int_equal(c.hits.n, still.hits.n);
 			/* a row that is chosen already stays as it is; a slider's knob may stand apart */
 			if (!canvas_extent(&c, &still, &changed))
@@ -199,37 +210,49 @@ static void test_hover(void **state)
 	}
 }
 
-/* Some kinds must answer on every screen they are on. */
+/* Is there a screen on which a thing of that kind shows that it is under the mouse or has the focus? */
+static bool shows(enum hit_kind kind, bool focus)
+{
+	bool shown = false;
+	for (int s = 0; s < n_screens && !shown; s++) {
+		struct canvas still, c;
+		struct box_px changed;
+		canvas_init(&still, 1024, 700, 1, THEME_LIGHT, 0);
+		screen_draw(still.cr, &screens[s], 1024, 700, &still.look, &still.hits);
+		for (int i = 0; i < still.hits.n && !shown; i++) {
+			const struct hit *h = &still.hits.hit[i];
+			if (h->kind != kind || hits_at(&still.hits, h->x + 1, h->y + 1) != h)
+				continue;
+			canvas_init(&c, 1024, 700, 1, THEME_LIGHT, 0);
+			point_at(&c.look, h, focus);
+			screen_draw(c.cr, &screens[s], 1024, 700, &c.look, NULL);
+			shown = canvas_extent(&c, &still, &changed);
+			canvas_finish(&c);
+		}
+		canvas_finish(&still);
+	}
+	return shown;
+}
+
 static void test_answer(void **state)
 {
-	static const enum hit_kind kinds[] = { HIT_MENU_ROW, HIT_CHIP, HIT_SEARCH,
-		                               HIT_BUTTON,   HIT_TAB,  HIT_JOB_ROW,
-		                               HIT_RESULT,   HIT_BAR,  HIT_HELP_LINK };
+	static const enum hit_kind hover[] = {
+		HIT_MENU_ROW, HIT_CHIP,     HIT_SEARCH,  HIT_BUTTON,     HIT_TAB, HIT_CRUMB,
+		HIT_WORLD,    HIT_JOB_ROW,  HIT_JOB_BOX, HIT_RESULT,     HIT_BAR, HIT_HELP_LINK,
+		HIT_KEY_LOW,  HIT_KEY_HIGH, HIT_LIGHT,   HIT_COLOR_VALUE
+	};
+	static const enum hit_kind focus[] = { HIT_MENU_ROW,   HIT_CHIP,      HIT_SEARCH,
+		                               HIT_BUTTON,     HIT_TAB,       HIT_CRUMB,
+		                               HIT_WORLD,      HIT_BAR,       HIT_CHOICE,
+		                               HIT_KEY_LOW,    HIT_HELP_LINK, HIT_LIGHT,
+		                               HIT_COLOR_VALUE };
 	(void)state;
-	for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-		bool answered = false;
-		for (int s = 0; s < n_screens && !answered; s++) {
-			struct canvas still, c;
-			struct box_px changed;
-			canvas_init(&still, 1024, 700, 1, THEME_LIGHT, 0);
-			screen_draw(still.cr, &screens[s], 1024, 700, &still.look, &still.hits);
-			for (int i = 0; i < still.hits.n && !answered; i++) {
-				const struct hit *h = &still.hits.hit[i];
-				if (h->kind != kinds[k] ||
-				    hits_at(&still.hits, h->x + 1, h->y + 1) != h)
-					continue;
-				canvas_init(&c, 1024, 700, 1, THEME_LIGHT, 0);
-				c.look.hover_kind = h->kind;
-				c.look.hover_index = h->index;
-				c.look.hover_part = h->part;
-				screen_draw(c.cr, &screens[s], 1024, 700, &c.look, NULL);
-				answered = canvas_extent(&c, &still, &changed);
-				canvas_finish(&c);
-			}
-			canvas_finish(&still);
-		}
-		assert_true(answered);
-	}
+	for (size_t k = 0; k < sizeof hover / sizeof *hover; k++)
+		if (!shows(hover[k], false))
+			fail_msg("kind %d does not answer the mouse", hover[k]);
+	for (size_t k = 0; k < sizeof focus / sizeof *focus; k++)
+		if (!shows(focus[k], true))
+			fail_msg("kind %d does not show the focus", focus[k]);
 }
 
 /* The window's own texts and usual names have their room at every size and scale. */
@@ -281,6 +304,45 @@ static void test_same(void **state)
 			canvas_finish(&a);
 			canvas_finish(&b);
 		}
+}
+
+/* A text that was cut is told whole under the mouse, and not through a page that lies over it. */
+static void test_tips(void **state)
+{
+	static const char name[] = "teapot lid, upper half, from the import of Tuesday";
+	struct canvas c;
+	struct layout l;
+	struct box_px ink, window = { 0, 0, 1024, 700 };
+	int tips = 0;
+	(void)state;
+	canvas_init(&c, 1024, 700, 1, THEME_DARK, 0);
+	layout_place(&l, 1024, 700, true, model_menu_error.n_rows);
+	panel_menu(c.cr, &l, &model_menu_error, &c.look, &c.hits);
+	for (int i = 0; i < c.hits.n; i++) {
+		const struct hit *h = &c.hits.hit[i];
+		const double x = h->x + h->width / 2, y = h->y + h->height / 2;
+		if (h->kind != HIT_TIP)
+			continue;
+		tips++;
+		assert_string_equal(h->tip, name);
+		assert_ptr_equal(hits_tip(&c.hits, x, y), h->tip);
+		assert_int_equal(hits_at(&c.hits, x, y)->kind, HIT_FIELD);
+	}
+	assert_int_equal(tips, 1);
+	assert_null(hits_tip(&c.hits, 1, 1));
+	panel_search(c.cr, 1024, 700, &model_search, &c.look, &c.hits);
+	for (int x = 0; x < 1024; x += 4)
+		for (int y = 0; y < 700; y += 4)
+			assert_null(hits_tip(&c.hits, x, y));
+	/* it is painted in the window, wherever the mouse is */
+	for (int corner = 0; corner < 4; corner++) {
+		canvas_clear(&c);
+		panel_tip(c.cr, 1024, 700, corner % 2 * 1023, corner / 2 * 699, name, &c.look);
+		assert_true(canvas_extent(&c, NULL, &ink));
+		assert_true(within(&window, ink.x, ink.y, ink.width, ink.height, 0));
+		assert_true(ink.width > 200);
+	}
+	canvas_finish(&c);
 }
 
 static double luminance(struct rgb c)
@@ -342,10 +404,11 @@ static int forget(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_layout), cmocka_unit_test(test_form),
-		cmocka_unit_test(test_hits),   cmocka_unit_test(test_hover),
-		cmocka_unit_test(test_answer), cmocka_unit_test(test_cuts),
-		cmocka_unit_test(test_same),   cmocka_unit_test(test_contrast),
+		cmocka_unit_test(test_layout),   cmocka_unit_test(test_form),
+		cmocka_unit_test(test_hits),     cmocka_unit_test(test_hover),
+		cmocka_unit_test(test_answer),   cmocka_unit_test(test_cuts),
+		cmocka_unit_test(test_same),     cmocka_unit_test(test_tips),
+		cmocka_unit_test(test_contrast),
 	};
 	return cmocka_run_group_tests(tests, NULL, forget);
 }

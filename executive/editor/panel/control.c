@@ -20,18 +20,28 @@ double paint_text(const struct paint *p, enum label_style style, enum token toke
 	                 align, INFINITY, LABEL_CUT_END, text);
 }
 
+static double fit(const struct paint *p, enum label_style style, enum token token, double x,
+                  double middle, double align, double room, enum label_cut cut, const char *text)
+{
+	const int before = label_cuts(p->cr);
+	const double width = label_fit(p->cr, style, paint_color(p, token), x,
+	                               label_baseline(style, middle), align, room, cut, text);
+	if (label_cuts(p->cr) != before)
+		paint_tip(p, x - align * width, middle - label_size(style), width,
+		          2 * label_size(style), text);
+	return width;
+}
+
 double paint_cut(const struct paint *p, enum label_style style, enum token token, double x,
                  double middle, double align, double room, const char *text)
 {
-	return label_fit(p->cr, style, paint_color(p, token), x, label_baseline(style, middle),
-	                 align, room, LABEL_CUT_END, text);
+	return fit(p, style, token, x, middle, align, room, LABEL_CUT_END, text);
 }
 
 double paint_path(const struct paint *p, enum label_style style, enum token token, double x,
                   double middle, double room, const char *text)
 {
-	return label_fit(p->cr, style, paint_color(p, token), x, label_baseline(style, middle), 0,
-	                 room, LABEL_CUT_MIDDLE, text);
+	return fit(p, style, token, x, middle, 0, room, LABEL_CUT_MIDDLE, text);
 }
 
 double paint_cap_width(const struct paint *p, const char *key)

@@ -210,6 +210,8 @@ static void paint_head(const struct paint *p, const struct box_px *b, const stru
 	const double x = b->x + EDGE, right = b->x + b->width - EDGE;
 	double end = right - paint_cap(p, right, b->y + 24, 1, "Esc") - 12;
 	paint_hit(p, HIT_HELP_LINK, -2, 0, right - 40, b->y + 12, 44, 24);
+	if (paint_hot(p, HIT_HELP_LINK, -2, 0) || paint_focused(p, HIT_HELP_LINK, -2, 0))
+		paint_ring(p, end + 10, b->y + 13, right - end - 8, 22, 5);
 	const struct look still = { .theme = p->look->theme, .scale = p->look->scale };
 	const struct paint unclickable = { p->cr, &still, NULL };
 	paint_crumbs(&unclickable, x, b->y + 24, end - x, m->path);

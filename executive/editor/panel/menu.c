@@ -51,6 +51,8 @@ static void paint_head(const struct paint *p, const struct box_px *b, const stru
 	                         right - cap - 8, middle, 1, "help") +
 	              cap + 8;
 	paint_hit(p, HIT_HELP_LINK, -1, 0, right - help - 4, middle - 10, help + 4, 20);
+	if (paint_focused(p, HIT_HELP_LINK, -1, 0))
+		paint_ring(p, right - help - 4, middle - 12, help + 8, 24, 6);
 	paint_cut(p, LABEL_TITLE, TOKEN_TEXT, left, middle, 0, right - left - help - 12, m->title);
 }
 

@@ -99,6 +99,8 @@ void paint_ring(const struct paint *p, double x, double y, double width, double 
                 double radius);
 void paint_hit(const struct paint *p, enum hit_kind kind, int index, int part, double x, double y,
                double width, double height);
+void paint_tip(const struct paint *p, double x, double y, double width, double height,
+               const char *text); /* copied */
 
 /* States of jobs. */
 struct rgb glyph_color(const struct paint *p, enum job_state state);

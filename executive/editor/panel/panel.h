@@ -34,12 +34,14 @@ enum hit_kind {
 	HIT_CRUMB,
 	HIT_HELP_LINK, /* 0 on: link of the page (panel_help_link); -1: help on this menu; -2: close */
 	HIT_SCROLL,    /* part: enum hit_group; the box is the track */
+	HIT_TIP,       /* a text that was cut; never given by hits_at */
 };
 enum hit_group { GROUP_FORM, GROUP_JOBS, GROUP_LIST, GROUP_EMPTY, GROUP_HELP };
 struct hit {
 	enum hit_kind kind;
 	int index, part; /* which row, and which part of it (a choice, an end) */
 	double x, y, width, height;
+	char *tip; /* owned by the hits: the whole text of a HIT_TIP */
 };
 struct hits {
 	struct hit *hit; /* owned */
@@ -48,6 +50,7 @@ struct hits {
 void hits_reset(struct hits *h);
 void hits_finish(struct hits *h);
 const struct hit *hits_at(const struct hits *h, double x, double y); /* the last painted; NULL */
+const char *hits_tip(const struct hits *h, double x, double y); /* the whole text there, or NULL */
 
 /* State common to all painters. */
 struct look {
@@ -256,6 +259,10 @@ struct rgb panel_color_rgb(const struct color_model *m);
 struct rgb panel_color_sample(int index); /* HIT_COLOR_VALUE 4 + index */
 void panel_light(cairo_t *cr, const struct box_px *b, const struct light_model *m,
                  const struct look *k, struct hits *h);
+
+/* Beside (x, y) within the window: the whole of a text that was cut. */
+void panel_tip(cairo_t *cr, double width, double height, double x, double y, const char *text,
+               const struct look *k);
 
 /* At the top of the box: the view, of which the rest is left to others. */
 double panel_bar_height(cairo_t *cr, const struct box_px *b, const struct bar_model *m);
