@@ -39,6 +39,11 @@ static bool wants_color(const char *when)
 	return strcmp(when, "never") && !(none && *none) && isatty(STDOUT_FILENO);
 }
 
+static bool is_yes_or_no(const char *word)
+{
+	return strcmp(word, "yes") == 0 || strcmp(word, "no") == 0;
+}
+
 /* Take one option at argv[*at]; *at ends on the last word taken. */
 static enum status take_option(struct invocation *i, int argc, char **argv, int *at,
                                const char **when)
@@ -84,8 +89,11 @@ static enum status take_option(struct invocation *i, int argc, char **argv, int 
 		char *name = strndup(word + 2, n - 2);
 		if (!name)
 			return report_error(&i->report, ST_RESOURCE, "memory ran out");
+		/* a worker's flag may say which: --trimmed no */
+		if (!takes)
+			value = *at + 1 < argc && is_yes_or_no(argv[*at + 1]) ? argv[++*at] : "yes";
 		i->extra[2 * i->n_extra] = name;
-		i->extra[2 * i->n_extra + 1] = strdup(takes ? value : "yes");
+		i->extra[2 * i->n_extra + 1] = strdup(value);
 		i->n_extra++;
 	}
 	return ST_OK;

@@ -111,6 +111,12 @@ void g2_format(const struct model *m, struct text *out)
 enum status g2_write(const struct model *m, const char *path, const struct report *r)
 {
 	struct text t = { 0 };
+	int trimmed = 0;
+	for (int i = 0; i < m->n; i++)
+		trimmed += m->entities[i].trim.n > 0;
+	if (trimmed)
+		report_warning(r, "'%s' holds %d trimmed %s whole: trims are not written to .g2",
+		               path, trimmed, trimmed == 1 ? "surface" : "surfaces");
 	g2_format(m, &t);
 	enum status st =
 	        t.failed ? report_error(r, ST_RESOURCE, "cannot write '%s': memory ran out", path)

@@ -132,6 +132,19 @@ def test_open_cascade_reads_the_same_faces(project):
         assert abs(sum(mine) * scale - sum(theirs)) <= 1e-4 * sum(theirs), (name, sum(mine) * scale, sum(theirs))
 
 
+def test_trims_may_be_left_out(project):
+    with open(project.path("ring.igs"), "w") as f:
+        f.write(iges(TRIMMED["ring"][1]))
+    assert "1 trimmed surface" in project.run("batten", "export", "ring.igs", "--to", "ring.g2").stderr
+    pictures = {}
+    for name, words in (("as-is", []), ("yes", ["--trimmed", "yes"]), ("no", ["--trimmed", "no"]), ("equals", ["--trimmed=no"])):
+        project.run("batten", "run", "shading", "ring.igs", *words, "--size", "64x48", "--output", name)
+        with open(project.path(name + ".shade.exr"), "rb") as f:
+            pictures[name] = f.read()
+    assert pictures["as-is"] == pictures["yes"] and pictures["no"] == pictures["equals"]
+    assert pictures["yes"] != pictures["no"]
+
+
 def read_obj(path):
     points, triangles, names = [], [], 0
     with open(path) as f:
