@@ -136,7 +136,8 @@ static enum status check_choice(const struct check *c)
 {
 	const size_t n = strlen(c->value);
 
-	for (const char *p = c->row->choices; p; p = strchr(p, '|'), p = p ? p + 1 : NULL)
+	for (const char *p = strchr(c->value, '|') ? NULL : c->row->choices; p;
+	     p = strchr(p, '|'), p = p ? p + 1 : NULL)
 		if (!strncmp(p, c->value, n) && (!p[n] || p[n] == '|') && n)
 			return ST_OK;
 	return wrong(c, "one of %s", c->row->choices);
