@@ -6,7 +6,7 @@
 #include "help_text.h"
 #include "paint.h"
 
-enum { EDGE = 24, HEAD = 78, TABLE_NAME = 88, TABLE_VALUE = 218, LINE = 21, EXAMPLE = 19 };
+enum { EDGE = 24, HEAD = 78, TABLE_NAME = 88, TABLE_MEANING = 222, LINE = 21, EXAMPLE = 19 };
 
 static struct box_px page_box(const struct layout *l)
 {
@@ -45,12 +45,12 @@ static void flow_row(struct flow *f, const struct help_reader *r)
 {
 	const bool three = r->meaning.n > 0;
 	const double value = f->x + TABLE_NAME;
-	const double meaning = f->x + TABLE_VALUE;
+	const double meaning = f->x + TABLE_MEANING;
 	double tall =
 	        wrap(f, LABEL_NAME, TOKEN_TEXT, f->x, f->y - 3, TABLE_NAME - 8, string(&r->text));
 	if (r->value.n)
 		tall = fmax(tall, wrap(f, LABEL_FORM, TOKEN_TEXT2, value, f->y - 3,
-		                       (three ? meaning - 8 : f->x + f->width) - value,
+		                       (three ? meaning - 12 : f->x + f->width) - value,
 		                       string(&r->value)));
 	if (three)
 		tall = fmax(tall, wrap(f, LABEL_FORM, TOKEN_MUTED, meaning, f->y - 3,
@@ -250,6 +250,8 @@ void panel_help(cairo_t *cr, const struct layout *l, const struct help_model *m,
 	cairo_clip(cr);
 	flow(&f, m->text);
 	cairo_restore(cr);
+	if (scroll > 0)
+		paint_rule(&p, b.x + 1, f.top, b.width - 2);
 	paint_scroll(&p, b.x + b.width - 6, f.top, f.below - f.top - 4, (int)scroll, (int)room,
 	             (int)ceil(all), GROUP_HELP);
 }

@@ -50,8 +50,9 @@ static const char *line_at(const char *at, struct line *l)
 	return *end ? end + 1 : end;
 }
 
-/* Which section begins with this line: its index, -1. */
-static int section_of(const struct line *l)
+/* Which section begins with this line: its index, -1. A section of the help source, ":see V80", may go
+ * on in the line; its bytes until there are *head. */
+static int section_begins(const struct line *l, size_t *head)
 {
 	const char *s = l->s;
 	size_t n = l->n;
@@ -61,10 +62,23 @@ static int section_of(const struct line *l)
 		s++;
 		n--;
 	}
-	for (int i = 0; i < N_SECTIONS; i++)
-		if (n == strlen(sections[i].word) && !strncasecmp(s, sections[i].word, n))
+	*head = l->n;
+	for (int i = 0; i < N_SECTIONS; i++) {
+		const size_t word = strlen(sections[i].word);
+		if (n == word && !strncasecmp(s, sections[i].word, n))
 			return i;
+		if (s > l->s && n > word && s[word] == ' ' && !strncmp(s, sections[i].word, word)) {
+			*head = word + 1;
+			return i;
+		}
+	}
 	return -1;
+}
+
+static int section_of(const struct line *l)
+{
+	size_t head;
+	return section_begins(l, &head);
 }
 
 static bool is_head(const struct line *l, const char *next)
@@ -195,7 +209,10 @@ static void read_link(struct help_reader *r, const struct line *l)
 
 static enum help_block read_block(struct help_reader *r, const struct line *l)
 {
-	int section = section_of(l);
+	size_t head;
+	int section = section_begins(l, &head);
+	if (section >= 0 && head < l->n)
+		r->at = l->s + head;
 	if (section >= 0) {
 		r->section = sections[section].section;
 		if (sections[section].head)
