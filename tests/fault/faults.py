@@ -163,6 +163,12 @@ def verb(name):
     return ask
 
 
+def hold_queue(t):
+    t.count["user's orders"] += 1
+    t.start("hold", "--after-current")
+    return lambda: t.start("release", "--all")
+
+
 def look(t):
     t.start(*t.random.choice((("jobs",), ("jobs", "--json", "--all"), ("wait", "--timeout", "1"),
                               ("jobs", "--follow", "--json"))))
@@ -178,5 +184,5 @@ FAULTS = (
     (3, kill_service), (2, damage_parts), (6, kill_worker), (2, terminate_worker), (4, stop_worker),
     (2, stop_service), (4, kill_client), (3, stop_client), (3, fill_disk), (3, small_files), (3, no_writing),
     (2, swap_input), (2, step_clock), (4, look), (1, shutdown), (3, verb("suspend")), (3, verb("activate")),
-    (2, verb("hold")), (2, verb("release")), (2, verb("kill")), (3, verb("retry")), (1, verb("priority")),
+    (2, verb("hold")), (1, hold_queue), (2, verb("release")), (2, verb("kill")), (3, verb("retry")), (1, verb("priority")),
 )
