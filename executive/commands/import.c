@@ -90,9 +90,21 @@ static enum status import_all(struct import *x, const struct entity *chosen)
 	if (x->inputs && chosen && chosen->kind != ENTITY_SURFACE)
 		return report_error(r, ST_INPUT, "entity %d of '%s' is a %s; jobs work on surfaces",
 		                    chosen->number, x->m->file, entity_kind_name(chosen->kind));
+	struct interrupt interrupt;
+	int written = 0;
+	interrupt_begin(&interrupt);
 	for (int k = 0; k < x->m->n && st == ST_OK; k++)
-		if (is_meant(x, chosen, &x->m->entities[k]))
-			st = write_entity(x, &x->m->entities[k]);
+		if (is_meant(x, chosen, &x->m->entities[k])) {
+			if (interrupt_noted())
+				st = report_error(r, ST_CANCELLED,
+				                  "cancelled; %d of %d entities are written, each "
+				                  "whole",
+				                  written, x->n_chosen);
+			else
+				st = write_entity(x, &x->m->entities[k]);
+			written++;
+		}
+	interrupt_end(&interrupt);
 	return st;
 }
 

@@ -1,7 +1,6 @@
 /* reading.c - reading a geometry file in a verb. */
 #include "reading.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -15,6 +14,22 @@ static void on_interrupt(int number)
 {
 	(void)number;
 	atomic_store(&interrupted, true);
+}
+
+void interrupt_begin(struct interrupt *x)
+{
+	const struct sigaction mine = { .sa_handler = on_interrupt };
+	sigaction(SIGINT, &mine, &x->before);
+}
+
+bool interrupt_noted(void)
+{
+	return atomic_load(&interrupted);
+}
+
+void interrupt_end(const struct interrupt *x)
+{
+	sigaction(SIGINT, &x->before, NULL);
 }
 
 struct meter {
@@ -56,10 +71,10 @@ enum status reading_open(struct model *m, const char *argument, struct entity **
 	struct progress p = { .step = isatty(STDERR_FILENO) ? draw : NULL,
 		              .data = &meter,
 		              .stop = &interrupted };
-	struct sigaction mine = { .sa_handler = on_interrupt }, before;
-	sigaction(SIGINT, &mine, &before);
+	struct interrupt interrupt;
+	interrupt_begin(&interrupt);
 	st = model_read(m, path, &p, r);
-	sigaction(SIGINT, &before, NULL);
+	interrupt_end(&interrupt);
 	if (meter.shown)
 		fputs("\r\033[K", stderr);
 	if (st == ST_OK && selector) {

@@ -2,6 +2,8 @@
 #ifndef BATTEN_READING_H
 #define BATTEN_READING_H
 
+#include <signal.h>
+
 #include "command.h"
 #include "model.h"
 
@@ -11,5 +13,14 @@
  */
 enum status reading_open(struct model *m, const char *argument, struct entity **chosen,
                          const struct report *r);
+
+/* Between begin and end Ctrl-C is only noted, so that what is being written becomes whole. */
+struct interrupt {
+	struct sigaction before;
+};
+
+void interrupt_begin(struct interrupt *x);
+bool interrupt_noted(void);
+void interrupt_end(const struct interrupt *x);
 
 #endif

@@ -2,7 +2,9 @@
 import collections
 import math
 import os
+import signal
 import struct
+import subprocess
 
 import end
 
@@ -143,6 +145,23 @@ def test_trims_may_be_left_out(project):
             pictures[name] = f.read()
     assert pictures["as-is"] == pictures["yes"] and pictures["no"] == pictures["equals"]
     assert pictures["yes"] != pictures["no"]
+
+
+def test_an_import_interrupted_leaves_whole_files(project):
+    count = 3000
+    with open(project.path("many.igs"), "w") as f:
+        f.write(iges([(128, 0, SQUARE)] * count))
+    importing = project.start("batten", "import", "many.igs", "--into", "into", stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE)
+    first = importing.stdout.readline()
+    importing.send_signal(signal.SIGINT)
+    rest, said = importing.communicate(timeout=60)
+    named = [first.strip()] + rest.split()
+    assert importing.returncode == 130 and "cancelled" in said, (importing.returncode, said)
+    assert sorted(named) == sorted(os.path.join("into", x) for x in os.listdir(project.path("into")))
+    assert len(named) < count
+    for file in (named[0], named[-1]):
+        assert abs(sum(areas(project, file)) - 1) < 1e-12
 
 
 def read_obj(path):
