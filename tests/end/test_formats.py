@@ -155,10 +155,12 @@ def test_an_import_interrupted_leaves_whole_files(project):
                               stderr=subprocess.PIPE)
     first = importing.stdout.readline()
     importing.send_signal(signal.SIGINT)
-    rest, said = importing.communicate(timeout=60)
+    rest, said = importing.stdout.read(), importing.stderr.read()
+    importing.wait(timeout=60)
     named = [first.strip()] + rest.split()
     assert importing.returncode == 130 and "cancelled" in said, (importing.returncode, said)
-    assert sorted(named) == sorted(os.path.join("into", x) for x in os.listdir(project.path("into")))
+    there = sorted(os.path.join("into", x) for x in os.listdir(project.path("into")))
+    assert sorted(named) == there, (len(named), len(there))
     assert len(named) < count
     for file in (named[0], named[-1]):
         assert abs(sum(areas(project, file)) - 1) < 1e-12
