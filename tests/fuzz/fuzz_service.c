@@ -158,7 +158,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n)
 	struct server s = { .project = &project,
 		            .clock = { .elapsed = clock_now, .date = clock_now } };
 	struct session c = { .server = &s };
-	struct ledger ledger = { .write = write_nothing, .load = load };
+	struct ledger ledger = { .write = write_nothing, .hold = hold, .load = load };
 	struct queue_ports ports = { .launcher = &launcher,
 		                     .ledger = &ledger,
 		                     .clock = &s.clock,
