@@ -1,4 +1,4 @@
-/* label.c - text on a Cairo surface. A context keeps the layouts it drew last, so that what did not
+/* label.c - text on a Cairo surface. The surface keeps the layouts drawn last, so that what did not
  * change is not shaped again. */
 #include "label.h"
 
@@ -88,12 +88,14 @@ static PangoContext *context_create(cairo_t *cr)
 /* NULL on a context that could not be made. */
 static struct type *type_of(cairo_t *cr)
 {
-	struct type *t = cairo_get_user_data(cr, &type_key);
+	cairo_surface_t *surface = cairo_get_target(cr);
+	struct type *t = cairo_surface_get_user_data(surface, &type_key);
 	if (t)
 		return t;
 	t = g_new0(struct type, 1);
 	t->context = context_create(cr);
-	if (cairo_set_user_data(cr, &type_key, t, type_destroy) != CAIRO_STATUS_SUCCESS) {
+	if (cairo_surface_set_user_data(surface, &type_key, t, type_destroy) !=
+	    CAIRO_STATUS_SUCCESS) {
 		type_destroy(t);
 		return NULL;
 	}
@@ -312,6 +314,6 @@ double label_caret(cairo_t *cr, enum label_style style, const char *text, int at
 
 int label_cuts(cairo_t *cr)
 {
-	struct type *t = cairo_get_user_data(cr, &type_key);
+	struct type *t = cairo_surface_get_user_data(cairo_get_target(cr), &type_key);
 	return t ? t->cuts : 0;
 }

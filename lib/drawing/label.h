@@ -1,5 +1,6 @@
 /* label.h - text on a Cairo surface, in the program's type. Lines are single lines whatever the text
- * holds; what is no UTF-8 is shown as such, never refused. */
+ * holds; what is no UTF-8 is shown as such, never refused.
+ * Layouts are kept with the surface: one that is drawn on again needs little time. */
 #ifndef BATTEN_LABEL_H
 #define BATTEN_LABEL_H
 
@@ -56,7 +57,7 @@ double label_wrap_height(cairo_t *cr, enum label_style style, double width, int 
 /* px from the text's beginning to before its byte `at`; of a place within a character: before it. */
 double label_caret(cairo_t *cr, enum label_style style, const char *text, int at);
 
-/* How many texts drawn on this context so far had less room than they needed. */
+/* How many texts drawn on this surface so far had less room than they needed. */
 int label_cuts(cairo_t *cr);
 
 /* Baseline of a text whose capitals are centred about `middle`. */
