@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "command.h"
+#include "editor_program.h"
 #include "path.h"
 
 /* What the build asks for: man pages and the completion, on standard output. */
@@ -50,12 +51,31 @@ static int run_verb(const struct command *c, int argc, char **argv)
 	return rc;
 }
 
+/* Files, or nothing: the editor's window. */
+static int open_editor(int n, char **files)
+{
+	const struct report r = report_stderr("batten");
+	char **words = calloc((size_t)n + 3, sizeof *words);
+
+	if (!words)
+		return status_exit(report_error(&r, ST_RESOURCE, "memory ran out"));
+	words[0] = "batten-editor";
+	words[1] = "--window";
+	for (int k = 0; k < n; k++)
+		words[2 + k] = files[k];
+	int rc = editor_program_become(words, &r);
+	free(words);
+	return rc;
+}
+
 int main(int argc, char **argv)
 {
 	signal(SIGPIPE, SIG_IGN);
-	if (argc < 2 || is_help(argv[1])) {
-		program_help(argc < 2 ? stderr : stdout);
-		return argc < 2 ? status_exit(ST_PARAMETER) : 0;
+	if (argc < 2)
+		return open_editor(0, NULL);
+	if (is_help(argv[1])) {
+		program_help(stdout);
+		return 0;
 	}
 	if (!strcmp(argv[1], "--version")) {
 		printf("batten %s\n", BATTEN_VERSION);
@@ -64,8 +84,11 @@ int main(int argc, char **argv)
 	if (!strcmp(argv[1], "--man") || !strcmp(argv[1], "--completion"))
 		return print_manual(argc, argv);
 	const struct command *c = command_find(argv[1]);
+	if (!c && path_exists(argv[1]))
+		return open_editor(argc - 1, argv + 1);
 	if (!c) {
-		fprintf(stderr, "batten: there is no verb '%s'; batten --help lists them\n",
+		fprintf(stderr,
+		        "batten: there is no verb and no file '%s'; batten --help lists the verbs\n",
 		        argv[1]);
 		return status_exit(ST_PARAMETER);
 	}

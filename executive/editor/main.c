@@ -1,4 +1,4 @@
-/* main.c - the program batten-editor: one mode a way to start it. */
+/* main.c - the program batten-editor: one mode a way to start it; files alone open the window. */
 #include <stdio.h>
 #include <string.h>
 
@@ -13,6 +13,9 @@ static const struct mode {
 #endif
 	{ "--routines", mode_routines },
 	{ "--script", mode_script },
+#ifdef BATTEN_WINDOW
+	{ "--window", mode_window },
+#endif
 };
 enum { N_MODES = sizeof modes / sizeof *modes };
 
@@ -21,7 +24,11 @@ int main(int argc, char **argv)
 	for (int k = 0; k < N_MODES; k++)
 		if (argc > 1 && !strcmp(argv[1], modes[k].name))
 			return modes[k].run(argc - 2, argv + 2);
-	fprintf(stderr, "batten-editor: expected a mode:");
+#ifdef BATTEN_WINDOW
+	if (argc < 2 || strncmp(argv[1], "--", 2))
+		return mode_window(argc - 1, argv + 1);
+#endif
+	fprintf(stderr, "batten-editor: expected files or a mode:");
 	for (int k = 0; k < N_MODES; k++)
 		fprintf(stderr, " %s", modes[k].name);
 	fprintf(stderr, "; it is started by batten\n");

@@ -17,4 +17,9 @@ int mode_script(int argc, char **argv);
 enum status editor_picture(const struct world *w, const char *path, const char *view, int width,
                            int height, const struct report *r);
 
+/* Files: the window on the project of the current folder, with these beside what its session kept. Returns
+ * when it is closed. Exit status: 0; 1 where there is no display, no OpenGL 3.3, or the display went
+ * away. Only where there is a window system (BATTEN_WINDOW). */
+int mode_window(int argc, char **argv);
+
 #endif

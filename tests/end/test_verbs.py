@@ -34,7 +34,7 @@ def test_what_is_wrong_is_said_on_standard_error(project):
     for arguments in (["nonsense"], ["jobs", "--nonsense"], ["suspend"], ["suspend", "x"], ["suspend", "1", "--all"],
                       ["wait", "--timeout"], ["wait", "--timeout", "-1"], ["log"], ["run"], ["run", "shading"],
                       ["run", "nonsense", "x.igs"], ["config", "nonsense"], ["config", "jobs", "many"],
-                      ["help", "nonsense"], ["eval"], ["jobs", "--color", "blue"], []):
+                      ["help", "nonsense"], ["eval"], ["jobs", "--color", "blue"]):
         done = project.run("batten", *arguments, status=2)
         assert done.stdout == "", arguments
         assert done.stderr.strip(), arguments
@@ -42,6 +42,16 @@ def test_what_is_wrong_is_said_on_standard_error(project):
                       ["run", "shading", "missing.igs"], ["suspend", "77"], ["log", "77"], ["wait", "77"]):
         done = project.run("batten", *arguments, status=1)
         assert done.stderr.startswith("batten "), (arguments, done.stderr)
+
+
+def test_without_a_display_the_editor_says_so(project):
+    project.environment.pop("DISPLAY", None)
+    project.environment.pop("WAYLAND_DISPLAY", None)
+    for arguments in ([], [os.path.join(end.EXAMPLES, "torus.igs")]):
+        done = project.run("batten", *arguments, status=1)
+        assert done.stdout == "", arguments
+        assert done.stderr.startswith("batten: ") and done.stderr.count("\n") == 1, done.stderr
+    assert not os.path.exists(os.path.join(project.folder, ".batten"))
 
 
 def test_reading_makes_no_project(project):

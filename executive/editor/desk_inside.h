@@ -1,0 +1,315 @@
+/* desk_inside.h - what the files of the desk share. Private to desk*.c. */
+#ifndef BATTEN_DESK_INSIDE_H
+#define BATTEN_DESK_INSIDE_H
+
+#include "desk.h"
+#include "typed.h"
+
+enum {
+	PATH_MAX_DEPTH = 16,
+	FIELDS_MAX = 48,
+	MESSAGES_MAX = 200,
+	CANDIDATES_MAX = 8,
+	HISTORY_MAX = 100,
+	RESULTS_MAX = 8,
+	FOUND_MAX = 256,
+	TILES_MAX = 8,
+	PICKED_MAX = 512,
+	ENTRIES_MAX = 14,
+	BUTTONS_MAX = 4,
+};
+
+/* What covers the view or the panel, and takes the keys. */
+enum page { PAGE_NONE, PAGE_JOBS, PAGE_SEARCH, PAGE_HELP, PAGE_KEYS, PAGE_MESSAGES, PAGE_QUESTION };
+
+/* What the mouse does in the view, beside turning it. */
+enum tool { TOOL_NONE, TOOL_VIEW, TOOL_LIGHT, TOOL_COLOR, TOOL_POINTS, TOOL_PICK };
+
+enum drag_kind {
+	DRAG_NONE,
+	DRAG_ROTATE,
+	DRAG_PAN,
+	DRAG_PROBE,
+	DRAG_LIGHT,
+	DRAG_POINT,
+	DRAG_CARD, /* on a card: a dial, a slider */
+	DRAG_KEY,
+};
+
+/* Strings and arrays of a model; all go at the model's next filling. */
+struct scraps {
+	void **piece; /* owned, and each piece */
+	int n, cap;
+};
+
+struct message_line {
+	enum report_level level;
+	bool done;  /* a check before it */
+	char *text; /* owned */
+	char hint[48];
+};
+
+struct remembered {
+	char *name, *value; /* owned */
+};
+
+/* A leaf that is asked for. */
+struct ask {
+	const struct routine *routine; /* NULL: nothing is asked */
+	const struct Menu_Entry *entry;
+	struct argument_row *rows; /* owned */
+	int n, focus, scroll;
+	struct typed *field; /* owned; n */
+	char **error;        /* owned, and each; NULL: fine */
+	json_t *candidates;  /* owned; of the field in focus */
+	int candidate;       /* chosen one, -1: none */
+	int back;            /* steps into the history */
+};
+
+struct question {
+	char *title;    /* owned */
+	char *line[8];  /* owned; NULL where there are fewer */
+	bool in_prompt; /* asked in the prompt line alone */
+	char key[BUTTONS_MAX];
+	const char *word[BUTTONS_MAX];            /* NULL ends */
+	void (*answer)(struct desk *d, char key); /* Esc gives the last key: the safe one */
+};
+
+struct desk {
+	struct desk_ports ports;
+	struct desk_house house; /* borrowed things */
+	struct world *world;
+	double width, height, scale, now;
+	bool panel_shown;
+	enum theme theme;
+	struct layout layout;
+	unsigned dirty;
+	unsigned seen_revision;
+	struct hits hits[N_DESK_PARTS];
+	struct scraps scraps[N_DESK_PARTS];
+	struct look look;
+
+	/* menus */
+	const struct Menu_Entry *path[PATH_MAX_DEPTH]; /* path[depth - 1] is shown */
+	int depth;
+	const struct Menu_Entry *left[PATH_MAX_DEPTH]; /* where one was before the World menu */
+	int left_depth;
+	bool in_world;
+	int row_focus; /* by keyboard, -1: none */
+
+	struct ask ask;
+	struct remembered *history; /* owned; HISTORY_MAX */
+	int n_history;
+
+	struct message_line messages[MESSAGES_MAX]; /* the newest last */
+	int n_messages;
+
+	/* pages */
+	enum page page, under; /* under: comes back when this one is closed */
+	int page_scroll;
+	double help_scroll;
+	char help_code[8];
+	struct typed search;
+	const struct Menu_Entry *found[FOUND_MAX]; /* best first */
+	int n_found, found_chosen;
+	struct question question;
+
+	/* jobs */
+	struct job_shelf shelf;
+	enum link_state link;
+	char link_reason[256];
+	int64_t picked[PICKED_MAX];
+	int n_picked;
+	int64_t job_focus, job_log; /* ids, 0: none */
+	int job_tab, job_scroll, job_rows;
+	char *log_text; /* owned */
+	struct state_seen {
+		int64_t id;
+		enum job_state state;
+	} * seen; /* owned; states the user was told of */
+	int n_seen, seen_cap;
+	bool caught_up; /* the first records came: what is over now is no news */
+
+	/* views */
+	struct desk_tile tiles[TILES_MAX];
+	int n_tiles, tile; /* tile: the one with the keyboard */
+	bool fitted;
+	struct camera camera_before; /* of a drag, for Esc */
+	struct camera camera_seen;   /* the world's, when the views last looked */
+	struct sight sight_before;   /* of a tool, for Esc */
+	struct display display_before;
+	int display_thing;
+
+	/* mouse */
+	double x, y, down_x, down_y;
+	enum drag_kind drag;
+	enum desk_button drag_button;
+	bool drag_moved, space, space_used;
+	double click_at; /* of the last press on a key's end, for double clicks */
+	enum tool tool;
+	struct pick pick; /* under the mouse, or of the point dragged */
+	int skip;
+	bool probe_shown, probe_kept;
+	double probe_x, probe_y;
+	double hue, saturation, value; /* of the color tool */
+	enum hit_kind card_kind;       /* of a DRAG_CARD */
+	int card_index;
+	struct colormap key_map, key_before; /* as shown; when an end was taken */
+	double key_px;
+	bool point_moved;
+	struct vec3 point_to;
+
+	struct errand *errand; /* owned; it has the world */
+	char **pending;        /* owned; files still to be opened */
+	int n_pending, pending_at;
+	bool leaving;
+
+	/* models as filled last */
+	struct menu_model menu;
+	struct foot_model foot;
+	struct top_model top;
+	struct jobs_model jobs;
+	struct search_model results;
+	struct help_model help;
+	struct list_model list;
+	struct keys_model keys;
+};
+
+/* desk.c, desk_keys.c, desk_mouse.c */
+void desk_dirty(struct desk *d, unsigned bits);
+unsigned desk_bit(enum desk_part part);
+void desk_place(struct desk *d); /* the layout, after anything that changes it */
+void desk_set_page(struct desk *d, enum page page);
+void desk_toggle_page(struct desk *d, enum page page);
+void desk_leave_page(struct desk *d);
+bool desk_back(struct desk *d);                /* one step, as Esc; false: nothing to leave */
+bool desk_busy(struct desk *d);                /* an errand has the world: says so */
+bool desk_takes_text(const struct desk *d);    /* letters go to a text */
+void desk_command(struct desk *d, uint32_t c); /* a letter while no text is asked */
+void desk_world_changed(struct desk *d);       /* look whether it did */
+
+/* desk_menu.c */
+const struct Menu_Entry *desk_shown_menu(const struct desk *d);
+int desk_entries(const struct desk *d, const struct Menu_Entry *out[ENTRIES_MAX]);
+void desk_enter(struct desk *d, const struct Menu_Entry *menu);
+bool desk_up(struct desk *d);
+void desk_world_menu(struct desk *d);
+void desk_root(struct desk *d, enum menu_root which);
+void desk_go_to(struct desk *d, const struct Menu_Entry *e); /* show the menu it is in */
+void desk_choose(struct desk *d, const struct Menu_Entry *e);
+bool desk_choose_key(struct desk *d, uint32_t c);
+char desk_row_key(int row);
+/* "MAIN › FILES"; the whole path, the entry's own name left out. Into a scrap. */
+const char *desk_path_text(struct desk *d, struct scraps *s, const struct Menu_Entry *e);
+const char *desk_short_name(const struct desk *d, const struct Menu_Entry *e);
+const struct routine *desk_routine(const struct Menu_Entry *e);
+const struct Menu_Entry *desk_leaf(const struct desk *d, const char *code); /* NULL: none */
+
+/* desk_leaf.c: leaves that the desk knows by themselves */
+bool desk_leaf_own(struct desk *d, const struct Menu_Entry *e); /* true: done */
+bool desk_leaf_is_own(const char *code); /* the desk does it, whatever its routine says */
+enum tool desk_leaf_tool(const char *code);
+void desk_quit(struct desk *d);
+void desk_run(struct desk *d, const struct routine *t, const struct arguments *given);
+void desk_run_code(struct desk *d, const char *code, const char *name, const char *value);
+void desk_open_next(struct desk *d);
+
+/* desk_ask.c */
+void desk_ask(struct desk *d, const struct routine *t, const struct Menu_Entry *e);
+void desk_ask_end(struct desk *d);
+bool desk_ask_key(struct desk *d, enum desk_key key, unsigned mods);
+bool desk_ask_text(struct desk *d, uint32_t c);
+void desk_ask_focus(struct desk *d, int field);
+void desk_ask_changed(struct desk *d); /* the text in focus: candidates, error gone */
+void desk_ask_candidate(struct desk *d, int k);
+void desk_ask_choice(struct desk *d, int field, int part);
+void desk_ask_accept(struct desk *d);
+void desk_ask_run(struct desk *d); /* as accept, and the form stays */
+void desk_ask_defaults(struct desk *d);
+bool desk_ask_textual(const struct desk *d);
+void desk_ask_set(struct desk *d, const char *name, const char *format, ...)
+        __attribute__((format(printf, 3, 4))); /* a field by name; nothing where there is none */
+const char *desk_ask_get(const struct desk *d, const char *name); /* NULL: no such field */
+int desk_ask_find(const struct desk *d, const char *name);        /* -1 */
+enum form_kind desk_form_kind(const struct argument_row *row);
+
+/* desk_search.c */
+void desk_search_open(struct desk *d);
+bool desk_search_key(struct desk *d, enum desk_key key);
+void desk_search_changed(struct desk *d);
+void desk_search_take(struct desk *d, int k, bool go);
+
+/* desk_pages.c: help, keys, messages, questions */
+void desk_help_for(struct desk *d, const char *code);
+void desk_help_here(struct desk *d);
+bool desk_page_key(struct desk *d, enum desk_key key);
+void desk_question(struct desk *d, const struct question *q); /* strings are moved in */
+void desk_answer_question(struct desk *d, int button);
+bool desk_question_text(struct desk *d, uint32_t c);
+void desk_question_finish(struct question *q);
+
+/* desk_jobs.c */
+bool desk_jobs_key(struct desk *d, enum desk_key key, unsigned mods);
+bool desk_jobs_text(struct desk *d, uint32_t c);
+void desk_jobs_click(struct desk *d, const struct hit *h, unsigned mods);
+int desk_jobs_rows(struct desk *d, const struct Stats **out,
+                   int max);               /* of the tab, newest first */
+int desk_jobs_count(const struct desk *d); /* in the tab */
+bool desk_job_can(const struct Stats *s, enum message_type type);
+void desk_jobs_do(struct desk *d, enum message_type type);
+void desk_job_open(struct desk *d, const struct Stats *s);
+void desk_job_show(struct desk *d, int64_t id); /* in the list, with its log */
+bool desk_picked(const struct desk *d, int64_t id);
+void desk_duration(double seconds, char out[96]); /* "1:24", "2 h 10" */
+void desk_results(struct desk *d);                /* show what has come */
+int desk_unended(const struct desk *d);
+
+/* desk_view.c */
+void desk_views_place(struct desk *d);
+void desk_views_fit(struct desk *d, const char *view);
+void desk_views_adopt(struct desk *d);
+int desk_tile_at(const struct desk *d, double x, double y); /* -1: none */
+bool desk_view_press(struct desk *d, enum desk_button b, unsigned mods);
+void desk_view_move(struct desk *d, double dx, double dy);
+void desk_view_release(struct desk *d);
+void desk_view_scroll(struct desk *d, double dy);
+bool desk_view_key(struct desk *d, enum desk_key key, unsigned mods);
+bool desk_view_text(struct desk *d, uint32_t c);
+void desk_drag_cancel(struct desk *d);
+void desk_hover(struct desk *d);
+void desk_probe_hide(struct desk *d);
+
+/* desk_tools.c, desk_points.c */
+void desk_tool_begin(struct desk *d, enum tool tool);
+void desk_tool_end(struct desk *d, bool keep);
+void desk_tool_changed(struct desk *d); /* a field of the form was typed: show it */
+bool desk_tool_press(struct desk *d, const struct hit *h);
+void desk_tool_move(struct desk *d);
+bool desk_point_press(struct desk *d);
+void desk_point_move(struct desk *d);
+void desk_point_release(struct desk *d, bool keep);
+struct color_model desk_color_model(struct desk *d);
+
+/* desk_model.c, desk_model_pages.c, desk_over.c */
+void desk_fill_menu(struct desk *d);
+void desk_fill_foot(struct desk *d);
+void desk_fill_top(struct desk *d);
+void desk_fill_jobs(struct desk *d);
+void desk_fill_search(struct desk *d);
+void desk_fill_help(struct desk *d);
+void desk_fill_list(struct desk *d);
+void desk_paint_over(struct desk *d, cairo_t *cr);
+void desk_paint_probe(struct desk *d, cairo_t *cr);
+void desk_paint_keys(struct desk *d, cairo_t *cr, struct scraps *s);
+bool desk_key_press(struct desk *d, const struct hit *h); /* an end of a color key */
+void desk_key_move(struct desk *d);
+
+/* scraps.c */
+void scraps_reset(struct scraps *s);
+void scraps_finish(struct scraps *s);
+/* Never NULL: "" or, for an array, NULL only for want of memory. */
+const char *scraps_print(struct scraps *s, const char *format, ...)
+        __attribute__((format(printf, 2, 3)));
+void *scraps_array(struct scraps *s, size_t n, size_t size);
+
+#endif

@@ -1,0 +1,313 @@
+/* desk_leaf.c - leaves that move between menus or open pages, and how all others are run. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "desk_inside.h"
+#include "path.h"
+
+/* Leaves during which the mouse does something of its own in the view. */
+static const struct {
+	const char *code;
+	enum tool tool;
+} tool_table[] = {
+	{ "V45", TOOL_VIEW },    { "V52", TOOL_VIEW },    { "V59", TOOL_VIEW },
+	{ "V74", TOOL_VIEW },    { "V87", TOOL_VIEW },    { "V73", TOOL_LIGHT },
+	{ "V44", TOOL_COLOR },   { "V58", TOOL_COLOR },   { "V72", TOOL_COLOR },
+	{ "V77", TOOL_COLOR },   { "V157", TOOL_COLOR },  { "V106", TOOL_POINTS },
+	{ "V117", TOOL_POINTS }, { "V127", TOOL_POINTS },
+};
+
+enum tool desk_leaf_tool(const char *code)
+{
+	for (size_t i = 0; i < sizeof tool_table / sizeof *tool_table; i++)
+		if (!strcmp(tool_table[i].code, code))
+			return tool_table[i].tool;
+	return TOOL_NONE;
+}
+
+static void list_jobs(struct desk *d)
+{
+	desk_set_page(d, PAGE_JOBS);
+}
+
+/* With jobs picked already it is done; else the list opens to pick them. */
+static void for_jobs(struct desk *d, enum message_type type, const char *key)
+{
+	bool can = false;
+
+	for (int i = 0; i < d->n_picked; i++) {
+		const struct Stats *s = job_shelf_find(&d->shelf, d->picked[i]);
+		can |= s && desk_job_can(s, type);
+	}
+	if (d->page == PAGE_JOBS && can) {
+		desk_jobs_do(d, type);
+		return;
+	}
+	desk_set_page(d, PAGE_JOBS);
+	desk_say(d, REPORT_INFO, "Pick jobs in the list, then %s.", key);
+}
+
+static void suspend_jobs(struct desk *d)
+{
+	for_jobs(d, MESSAGE_SUSPEND, "S suspends them");
+}
+
+static void activate_jobs(struct desk *d)
+{
+	for_jobs(d, MESSAGE_ACTIVATE, "A activates them");
+}
+
+static void kill_jobs(struct desk *d)
+{
+	for_jobs(d, MESSAGE_KILL, "K kills them");
+}
+
+static void open_uv(struct desk *d)
+{
+	desk_enter(d, d->house.menus->menu[MENU_UV]->top);
+}
+
+static void open_cosfair(struct desk *d)
+{
+	desk_enter(d, d->house.menus->menu[MENU_COSFAIR]->top);
+}
+
+static void leave_menu(struct desk *d)
+{
+	desk_up(d);
+}
+
+static const struct {
+	const char *code;
+	void (*run)(struct desk *d);
+	bool greys; /* it may be greyed by its routine */
+} own_table[] = {
+	{ "V133", desk_quit, false },    { "V162", list_jobs, false },
+	{ "V163", suspend_jobs, false }, { "V164", activate_jobs, false },
+	{ "V165", kill_jobs, false },    { "V34", open_uv, true },
+	{ "V114", open_cosfair, true },  { "V149", leave_menu, false },
+	{ "V156", leave_menu, false },
+};
+
+bool desk_leaf_is_own(const char *code)
+{
+	for (size_t i = 0; i < sizeof own_table / sizeof *own_table; i++)
+		if (!strcmp(own_table[i].code, code))
+			return !own_table[i].greys;
+	return false;
+}
+
+bool desk_leaf_own(struct desk *d, const struct Menu_Entry *e)
+{
+	for (size_t i = 0; i < sizeof own_table / sizeof *own_table; i++) {
+		if (strcmp(own_table[i].code, e->index))
+			continue;
+		const char *why = own_table[i].greys
+		                          ? routine_greyed(routine_find(e->index), d->world)
+		                          : NULL;
+		if (why)
+			return false;
+		own_table[i].run(d);
+		return true;
+	}
+	return false;
+}
+
+/* ------------------------------------------------------------ running */
+
+/* What may take long: jobs to be submitted, files to be read or written. */
+static bool is_long(const struct routine *t)
+{
+	if (t->kind == ROUTINE_JOB)
+		return true;
+	for (const struct argument_row *row = t->arguments; row && row->name; row++)
+		if (row->type == ARGUMENT_FILE || row->type == ARGUMENT_OUTPUT)
+			return true;
+	return false;
+}
+
+void desk_run(struct desk *d, const struct routine *t, const struct arguments *given)
+{
+	struct errand *e;
+
+	if (desk_busy(d))
+		return;
+	if (errand_create(&e, t, d->world, d->house.project, given, d->ports.picture) != ST_OK) {
+		desk_say(d, REPORT_ERROR, "memory ran out");
+		return;
+	}
+	desk_world_changed(d);
+	d->errand = e;
+	if (is_long(t) && d->ports.start && d->ports.start(d->ports.data, e)) {
+		desk_dirty(d, desk_bit(PART_FOOT) | desk_bit(PART_MOUSE));
+		return;
+	}
+	errand_run(e);
+	desk_errand_over(d);
+}
+
+void desk_run_code(struct desk *d, const char *code, const char *name, const char *value)
+{
+	const struct routine *t = routine_find(code);
+	struct arguments given = { &name, &value, name ? 1 : 0 };
+	const char *why = t ? routine_greyed(t, d->world) : "there is no such routine";
+
+	if (why)
+		desk_say(d, REPORT_INFO, "%s: %s.", code, why);
+	else
+		desk_run(d, t, &given);
+}
+
+static void say_lines(struct desk *d, enum report_level level, const char *lines)
+{
+	while (*lines) {
+		size_t n = strcspn(lines, "\n");
+		desk_say(d, level, "%.*s", (int)n, lines);
+		if (level == REPORT_INFO)
+			d->messages[d->n_messages - 1].done = true;
+		lines += n + (lines[n] == '\n');
+	}
+}
+
+void desk_errand_over(struct desk *d)
+{
+	struct errand *e = d->errand;
+
+	if (!e || !errand_over(e))
+		return;
+	const struct routine *t = errand_routine(e);
+	enum status st = errand_status(e);
+	d->errand = NULL;
+	desk_world_changed(d);
+	if (st == ST_OK) {
+		say_lines(d, REPORT_WARNING, errand_warning(e));
+		say_lines(d, REPORT_INFO, errand_said(e));
+		if (t->kind == ROUTINE_EDIT && world_undo_name(d->world) && d->n_messages)
+			snprintf(d->messages[d->n_messages - 1].hint, sizeof d->messages[0].hint,
+			         "Z undoes: %.36s", world_undo_name(d->world));
+	} else if (st == ST_CANCELLED) {
+		desk_say(d, REPORT_INFO, "%s was stopped.", t->code);
+	} else {
+		const char *error = errand_error(e);
+		desk_say(d, REPORT_ERROR, "%s", *error ? error : status_text(st));
+	}
+	errand_destroy(e);
+	if (d->fitted)
+		desk_views_adopt(d);
+	else if (world_count(d->world))
+		desk_views_fit(d, NULL);
+	desk_dirty(d, DESK_ALL);
+	desk_results(d);
+	desk_open_next(d);
+}
+
+void desk_errand_progress(struct desk *d)
+{
+	if (d->errand)
+		desk_dirty(d, desk_bit(PART_FOOT));
+}
+
+/* The project's folder is where relative names are looked for; these are the caller's. */
+void desk_open_next(struct desk *d)
+{
+	if (d->errand || d->pending_at >= d->n_pending)
+		return;
+	char *file = d->pending[d->pending_at++];
+	char *path = path_absolute(file, NULL);
+	desk_run_code(d, "V175", "file", path ? path : file);
+	free(path);
+	free(file);
+}
+
+/* ------------------------------------------------------------ leaving */
+
+static void leave(struct desk *d)
+{
+	d->leaving = true;
+	if (d->ports.close)
+		d->ports.close(d->ports.data);
+}
+
+static void ask_all(struct desk *d, enum message_type type)
+{
+	int64_t ids[PICKED_MAX];
+	int n = 0;
+
+	for (int i = 0; i < d->shelf.n && n < PICKED_MAX; i++)
+		if (desk_job_can(&d->shelf.jobs[i], type))
+			ids[n++] = d->shelf.jobs[i].id;
+	if (n && d->ports.ask_jobs)
+		d->ports.ask_jobs(d->ports.data, type, ids, n);
+}
+
+static void quit_answer(struct desk *d, char key)
+{
+	if (key == 'N')
+		return;
+	if (key == 'S')
+		ask_all(d, MESSAGE_SUSPEND);
+	else if (key == 'K')
+		ask_all(d, MESSAGE_KILL);
+	leave(d);
+}
+
+static int count_unsaved(const struct desk *d, const char **name)
+{
+	int n = 0;
+
+	for (int i = 0; i < world_count(d->world); i++) {
+		const struct Ful *f = world_at(d->world, i);
+		if (!f->saved) {
+			*name = f->name;
+			n++;
+		}
+	}
+	return n;
+}
+
+void desk_quit(struct desk *d)
+{
+	struct question q = { .answer = quit_answer };
+	const char *name = "";
+	int jobs = desk_unended(d), n = 0, lines = 0, b = 0;
+
+	if (d->errand) {
+		errand_stop(d->errand);
+		desk_say(d, REPORT_INFO, "%s is being stopped; then quit again.",
+		         errand_routine(d->errand)->code);
+		return;
+	}
+	n = count_unsaved(d, &name);
+	if (!jobs && !n) {
+		leave(d);
+		return;
+	}
+	q.title = strdup(jobs && n ? "Quit with unsaved geometry and unended jobs?"
+	                 : n       ? "Quit with unsaved geometry?"
+	                           : "Quit with unended jobs?");
+	if (n == 1)
+		q.line[lines++] = text_print("%s is not saved. The session keeps it for the next "
+		                             "start; its file does not have it.",
+		                             name);
+	else if (n)
+		q.line[lines++] = text_print("%d curves and surfaces are not saved. The session "
+		                             "keeps them for the next start; their files do not "
+		                             "have them.",
+		                             n);
+	if (jobs)
+		q.line[lines++] = text_print("%d %s not ended. Without this window %s on.", jobs,
+		                             jobs == 1 ? "job has" : "jobs have",
+		                             jobs == 1 ? "it goes" : "they go");
+	q.key[b] = 'L';
+	q.word[b++] = jobs ? "Leave them running" : "Leave";
+	if (jobs) {
+		q.key[b] = 'S';
+		q.word[b++] = "Suspend them";
+		q.key[b] = 'K';
+		q.word[b++] = "Kill them";
+	}
+	q.key[b] = 'N';
+	q.word[b++] = "Stay";
+	desk_question(d, &q);
+}
