@@ -13,7 +13,7 @@ static const struct param contours_params[] = {
 	  .type = PARAM_REAL,
 	  .unit = "file",
 	  .help = "height of the design waterline: stations are measured below it" },
-	PARAM_ROW_LEVEL_TOLERANCE,
+	PARAM_ROWS_LEVEL_TOLERANCE,
 	{ .name = "gap",
 	  .type = PARAM_REAL,
 	  .min = 0,
@@ -183,6 +183,8 @@ static enum status contours_finish_work(struct work *w)
 		                  .n = s->sets.n_values,
 		                  .kinds = s->kinds,
 		                  .curves = s->curves };
+	level_curves_tell(w, s->tolerance, s->level.results,
+	                  (size_t)s->level.n * s->level.n_surfaces);
 	st = work_figures(w, contour_figures(s));
 	if (st == ST_OK)
 		st = work_output(w, ".contour", level_curves_write, &c);
@@ -205,7 +207,7 @@ static const struct worker_output contours_outputs[] = {
 const struct worker worker = {
 	.name = "contours",
 	.title = "contours",
-	.version = 1,
+	.version = 2,
 	.help = "Traces all curves in which planes or cylinders cut the surfaces, joined over their "
 	        "borders, with area, centroid and girth of sections; stations, waterlines and "
 	        "buttocks of a ship as a lines plan.",

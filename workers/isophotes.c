@@ -32,7 +32,7 @@ static const struct param isophotes_params[] = {
 	  .max = ANGLES_MAX,
 	  .help = "how many angles (17 where not given: every 10 degrees)" },
 	PARAM_ROWS_LIGHT("0", "0"),
-	PARAM_ROW_LEVEL_TOLERANCE,
+	PARAM_ROWS_LEVEL_TOLERANCE,
 	PARAM_ROW_SVG,
 	PARAM_ROW_VIEW("three-quarter"),
 	{ .name = NULL },
@@ -149,7 +149,7 @@ static const struct worker_output isophotes_outputs[] = {
 const struct worker worker = {
 	.name = "isophotes",
 	.title = "isophotes",
-	.version = 1,
+	.version = 2,
 	.help = "Traces all curves on a surface along which the normal keeps its angle to the "
 	        "light, as splines in u,v and in space with their checked error.",
 	.params = isophotes_params,

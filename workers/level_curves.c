@@ -10,14 +10,22 @@
 
 enum { LABEL_SIZE = 32 };
 
-static void figures_set(json_t *o, size_t branches, size_t closed, double length, double max_error,
-                        size_t undecided)
+#define TOLD_FROM 1.01
+
+static bool uv_asked(const struct level_curves *c)
 {
-	json_set_int(o, "branches", (int64_t)branches);
-	json_set_int(o, "closed", (int64_t)closed);
-	json_set_number(o, "length", length);
-	json_set_number(o, "max_error", max_error);
-	json_set_int(o, "undecided", (int64_t)undecided);
+	return work_real(c->work, "tolerance-uv") > 0;
+}
+
+static void figures_set(const struct level_curves *c, json_t *o, const struct level_result *x)
+{
+	json_set_int(o, "branches", (int64_t)x->n_branches);
+	json_set_int(o, "closed", (int64_t)x->n_closed);
+	json_set_number(o, "length", x->length);
+	json_set_number(o, "max_error", x->max_error);
+	if (uv_asked(c))
+		json_set_number(o, "max_error_uv", x->max_error_uv);
+	json_set_int(o, "undecided", (int64_t)x->n_undecided);
 }
 
 static const struct level_result *result_of(const struct level_curves *c, int i, int surface)
@@ -31,6 +39,7 @@ static void result_add(struct level_result *to, const struct level_result *x)
 	to->n_closed += x->n_closed;
 	to->length += x->length;
 	to->max_error = fmax(to->max_error, x->max_error);
+	to->max_error_uv = fmax(to->max_error_uv, x->max_error_uv);
 	to->n_undecided += x->n_undecided;
 }
 
@@ -38,6 +47,7 @@ json_t *level_curves_figures(const struct level_curves *c)
 {
 	struct level_result sum = { 0 };
 	json_t *o = json_object(), *levels = json_array();
+	level_curves_tell(c->work, c->tolerance, c->results, (size_t)c->n * c->work->n_surfaces);
 	for (int i = 0; i < c->n; i++) {
 		struct level_result one = { 0 };
 		json_t *row = json_object();
@@ -45,17 +55,40 @@ json_t *level_curves_figures(const struct level_curves *c)
 			result_add(&one, result_of(c, i, s));
 		if (c->value_name)
 			json_set_number(row, c->value_name, c->values[i]);
-		figures_set(row, one.n_branches, one.n_closed, one.length, one.max_error,
-		            one.n_undecided);
+		figures_set(c, row, &one);
 		json_array_append_new(levels, row);
 		result_add(&sum, &one);
 	}
-	figures_set(o, sum.n_branches, sum.n_closed, sum.length, sum.max_error, sum.n_undecided);
+	figures_set(c, o, &sum);
 	if (c->n > 1)
 		json_object_set_new(o, "levels", levels);
 	else
 		json_decref(levels);
 	return o;
+}
+
+void level_curves_tell(const struct work *w, double tolerance, const struct level_result *x,
+                       size_t n)
+{
+	const double tolerance_uv = work_real(w, "tolerance-uv");
+	double error = 0, error_uv = 0;
+	for (size_t i = 0; i < n; i++) {
+		error = fmax(error, x[i].max_error);
+		error_uv = fmax(error_uv, x[i].max_error_uv);
+	}
+	/* what rounding adds to a tolerance near it is not worth a word */
+	if (error > TOLD_FROM * tolerance)
+		report_warning(
+		        &w->report,
+		        "some curves are known to be within %g of the exact ones, not within "
+		        "the tolerance of %g; max_error of each tells which",
+		        error, tolerance);
+	if (tolerance_uv > 0 && error_uv > TOLD_FROM * tolerance_uv)
+		report_warning(
+		        &w->report,
+		        "some curves in u,v are known to be within %g of the exact ones, not "
+		        "within the tolerance of %g; max_error_uv of each tells which",
+		        error_uv, tolerance_uv);
 }
 
 static enum status attribute_number(struct entity *e, const char *name, double x)
@@ -96,6 +129,8 @@ static enum status branch_add(const struct level_curves *c, int i, int surface,
 		st = attribute_number(&e, "length", b->length);
 	if (st == ST_OK)
 		st = attribute_number(&e, "max_error", b->max_error);
+	if (st == ST_OK && uv_asked(c))
+		st = attribute_number(&e, "max_error_uv", b->max_error_uv);
 	if (st == ST_OK)
 		st = model_add(m, &e);
 	entity_finish(&e);

@@ -25,8 +25,12 @@ struct level_curves {
 	                             what is joined over surfaces has one number; NULL: none */
 };
 
+/* Nothing is silently wrong: a warning where curves miss the tolerance; max_error says the same. */
+void level_curves_tell(const struct work *w, double tolerance, const struct level_result *x,
+                       size_t n);
+
 /* branches, closed, length, max_error, undecided over all values, and `levels` with the same for
- * each where there are several. New reference, NULL for want of memory. */
+ * each where there are several; warns as above. New reference, NULL for want of memory. */
 json_t *level_curves_figures(const struct level_curves *c);
 
 /*

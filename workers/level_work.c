@@ -46,6 +46,7 @@ static enum status levels_create(struct level_work *l, const struct work *w,
                                  const struct level_field *fields, double tolerance)
 {
 	enum status st = ST_OK;
+	const double uv = work_real(w, "tolerance-uv");
 	int base = 0; /* whom the others borrow from */
 	for (int i = 0; i < l->n; i++) {
 		struct level **row = l->levels + (size_t)i * l->n_surfaces;
@@ -53,10 +54,13 @@ static enum status levels_create(struct level_work *l, const struct work *w,
 		bool like = i > 0 && alike(&fields[i], &fields[base]);
 		if (!like)
 			base = i;
-		for (int s = 0; st == ST_OK && s < l->n_surfaces; s++)
+		for (int s = 0; st == ST_OK && s < l->n_surfaces; s++) {
 			st = like ? level_create_like(&row[s], from[s], fields[i].value, &w->report)
 			          : level_create(&row[s], w->surfaces[s], &fields[i], tolerance,
 			                         &w->report);
+			if (st == ST_OK && uv > 0)
+				st = level_set_tolerance_uv(row[s], uv, &w->report);
+		}
 	}
 	return st;
 }

@@ -14,7 +14,7 @@ struct level_work {
 	struct level_result *results; /* owned, n x n_surfaces; filled by level_work_join */
 };
 
-/* Errors: those of level_create. */
+/* Errors: those of level_create. The tolerance in u,v is that of the parameters. */
 enum status level_work_init(struct level_work *l, const struct work *w,
                             const struct level_field *fields, int n, double tolerance);
 void level_work_finish(struct level_work *l); /* a zeroed one is fine */
@@ -36,12 +36,14 @@ static inline const struct level_result *level_work_result(const struct level_wo
 /* 1e-5 of the size of the largest surface, or what the parameter `tolerance` says. */
 double level_work_tolerance(const struct work *w);
 
-#define PARAM_ROW_LEVEL_TOLERANCE                                                                  \
-	{                                                                                          \
-		.name = "tolerance", .type = PARAM_REAL, .min = 0, .max = INFINITY,                \
-		.unit = "file",                                                                    \
-		.help = "largest distance from the exact curve (1e-5 of the surface's size where " \
-		        "not given)"                                                               \
-	}
+/* clang-format off */
+#define PARAM_ROWS_LEVEL_TOLERANCE                                                                 \
+	{ .name = "tolerance", .type = PARAM_REAL, .min = 0, .max = INFINITY, .unit = "file",      \
+	  .help = "largest distance from the exact curve (1e-5 of the surface's size where "       \
+		  "not given)" },                                                                  \
+	{ .name = "tolerance-uv", .type = PARAM_REAL, .def = "0", .min = 0, .max = INFINITY,       \
+	  .help = "largest distance from the exact curve in the surface's parameters, too (0: "    \
+		  "not asked for)" }
+/* clang-format on */
 
 #endif

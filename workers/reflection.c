@@ -57,7 +57,7 @@ static const struct param reflection_params[] = {
 	  .unit = "file",
 	  .help = "distance from one light line to the next (an eighth of the diagonal of the "
 	          "surfaces' box where not given)" },
-	PARAM_ROW_LEVEL_TOLERANCE,
+	PARAM_ROWS_LEVEL_TOLERANCE,
 	PARAM_ROW_SVG,
 	{ .name = NULL },
 };
@@ -220,19 +220,6 @@ static enum status reflection_unit(struct work *w, size_t unit)
 	return level_work_unit(&s->level, w, unit);
 }
 
-/* Nothing is silently wrong: curves that miss the tolerance are told of. */
-static void errors_tell(const struct work *w, const struct state *s)
-{
-	double error = 0;
-	for (int i = 0; i < s->n * w->n_surfaces; i++)
-		error = fmax(error, s->level.results[i].max_error);
-	if (error > s->tolerance)
-		report_warning(&w->report,
-		               "some curves are up to %g from the exact ones, more than the "
-		               "tolerance of %g; max_error of each tells which",
-		               error, s->tolerance);
-}
-
 static enum status reflection_finish(struct work *w)
 {
 	struct state *s = w->state;
@@ -246,8 +233,6 @@ static enum status reflection_finish(struct work *w)
 		                  .values = s->numbers,
 		                  .results = s->level.results,
 		                  .n = s->n };
-	if (st == ST_OK)
-		errors_tell(w, s);
 	if (st == ST_OK)
 		st = work_figures(w, level_curves_figures(&c));
 	if (st == ST_OK)
@@ -266,7 +251,7 @@ static const struct worker_output reflection_outputs[] = {
 const struct worker worker = {
 	.name = "reflection",
 	.title = "reflection lines",
-	.version = 1,
+	.version = 2,
 	.help = "Traces reflection lines, highlight lines or silhouettes of surfaces, as splines in "
 	        "u,v and in space with their checked error.",
 	.scene = true,

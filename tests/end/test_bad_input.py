@@ -4,7 +4,7 @@ import os
 
 import end
 
-WORKERS = ("contours", "curvature", "isophotes", "raytrace", "reflection", "shading")
+WORKERS = ("contours", "curvature", "isocurvature", "isophotes", "raytrace", "reflection", "shading")
 
 RESULTS = (".exr", ".isophote", ".contour", ".reflect", ".csv", ".png", ".svg", ".part")
 
@@ -53,7 +53,7 @@ def test_bad_parameters(project):
                          ("shading", "--size", "0x100"), ("shading", "--view", "sideways"), ("shading", "--light", "0,0,0"),
                          ("isophotes", "--angle", "200"), ("isophotes", "--tolerance", "0"), ("isophotes", "--tolerance", "x"),
                          ("contours", "--count", "0"), ("contours", "--plane", "1,0"), ("contours", "--half", "perhaps"),
-                         ("reflection", "--kind", "shine"), ("reflection", "--count", "2000"), ("reflection", "--eye", "x"),
+                         ("isocurvature", "--quantity", "kabs"), ("isocurvature", "--count", "1"), ("reflection", "--kind", "shine"), ("reflection", "--count", "2000"), ("reflection", "--eye", "x"),
                          ("raytrace", "--threads", "0"), ("raytrace", "--size", "nan")):
         done = project.run(f"batten-{worker}", torus, *bad, status=2)
         assert done.stderr.strip() and not outputs(project), (worker, bad, done.stderr)

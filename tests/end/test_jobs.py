@@ -9,8 +9,8 @@ import end
 TORUS = os.path.join(end.EXAMPLES, "torus.igs")
 TEAPOT = os.path.join(end.EXAMPLES, "teapot.igs")
 WORKERS = {"shading": ".shade.exr", "curvature": ".map.exr", "isophotes": ".isophote", "raytrace": ".trace.exr",
-           "contours": ".contour", "reflection": ".reflect"}
-DRAWN = ("isophotes", "contours", "reflection")
+           "contours": ".contour", "reflection": ".reflect", "isocurvature": ".isocurvature"}
+DRAWN = ("isophotes", "contours", "reflection", "isocurvature")
 LONG = ("raytrace", TEAPOT, "--size", "3000x3000", "--samples", "4")
 
 

@@ -47,6 +47,7 @@ def test_every_worker_makes_the_same_bytes(project):
     cases = (("curvature", SPHERE, ".map.exr", ("--grid", "40x40")),
              ("contours", SPHERE, ".contour", ("--plane", "1,1,0", "--count", "4")),
              ("isophotes", SPHERE, ".isophote", ("--angle", "40")),
+             ("isocurvature", SPHERE, ".isocurvature", ("--quantity", "kn_u", "--level", "-0.3")),
              ("reflection", SPHERE, ".reflect", ("--kind", "highlight", "--count", "3")),
              ("shading", SPHERE, ".shade.exr", ("--size", "64x64")),
              ("raytrace", SPHERE, ".trace.exr", ("--size", "64x64")))

@@ -74,7 +74,7 @@ def test_settings_are_kept(project):
 
 def test_the_workers_describe_themselves(project):
     workers = {w["name"]: w for w in project.json("batten", "workers")["workers"]}
-    for name in ("contours", "curvature", "isophotes", "raytrace", "reflection", "shading"):
+    for name in ("contours", "curvature", "isocurvature", "isophotes", "raytrace", "reflection", "shading"):
         w = workers[name]
         assert not w["broken"] and w["title"] and w["version"] >= 1 and w["parameters"] and w["outputs"], w
         direct = json.loads(project.run(f"batten-{name}", "--describe").stdout)

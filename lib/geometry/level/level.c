@@ -106,15 +106,32 @@ static void reach_find(struct level_surface *s, const struct surface *from)
 			double w;
 			struct vec3 p = surface_get_point(from, i, j, &w);
 			s->reach = larger(s->reach, w * vec3_length(p));
+			s->far = larger(s->far, vec3_length(p));
 			s->extent[0] = larger(s->extent[0], w * fabs(p.x));
 			s->extent[1] = larger(s->extent[1], w * fabs(p.y));
 			s->extent[2] = larger(s->extent[2], w * fabs(p.z));
 			s->weight = larger(s->weight, w);
 		}
 	double steps = 8.0 * (from->order[0] + from->order[1]) * UNIT_ROUNDOFF;
+	s->steps = steps;
 	s->of_points = (struct bound){ s->reach * (1 + steps), s->reach * steps };
 	s->of_weights =
 	        (struct bound){ s->weight * (1 + steps), s->net.rational ? s->weight * steps : 0 };
+}
+
+void level_patch_bounds(const struct level_surface *s, const double *points,
+                        struct bound *of_points, struct bound *of_weights)
+{
+	double heavy = 1;
+	if (s->net.rational) {
+		heavy = points[3];
+		for (size_t i = 1; i < bezier_patch_size(&s->net) / 4; i++)
+			heavy = larger(heavy, points[4 * i + 3]);
+	}
+	*of_weights =
+	        (struct bound){ heavy * (1 + s->steps), s->net.rational ? heavy * s->steps : 0 };
+	*of_points = (struct bound){ smaller(s->far * heavy, s->reach) * (1 + s->steps),
+		                     smaller(s->far * heavy, s->reach) * s->steps };
 }
 
 static double *binomial_make(int n)
@@ -215,7 +232,11 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 		s->eye[d] = vec3_dot(row, field->eye);
 		s->gap[d] = vec3_dot(row, vec3_sub(field->point, field->eye));
 	}
-	if (s->kind == LEVEL_CURVATURE)
+	const int spans = s->net.spans[0] * s->net.spans[1];
+	st = level_net_even(&s->net);
+	if (s->kind == LEVEL_CURVATURE || s->net.spans[0] * s->net.spans[1] > spans)
+		s->steps *= 2; /* halving adds roundings */
+	if (st == ST_OK && s->kind == LEVEL_CURVATURE)
 		st = curvature_prepare(s, field->quantity);
 	if (st == ST_OK)
 		st = forms_prepare(s, tolerance);
@@ -249,6 +270,7 @@ static enum status level_set(struct level *l, const struct level_field *field, d
 		                    : radius ? "a radius greater than 0"
 		                             : "a finite number");
 	l->tolerance = tolerance;
+	l->tolerance_uv = INFINITY;
 	l->value = shape->valued ? field->value : 0;
 	if (angle && fabs(l->value) < 1e-15)
 		l->value = 0;
@@ -337,7 +359,20 @@ enum status level_create_like(struct level **out, const struct level *first, dou
 		                     .quantity = first->surface->quantity,
 		                     .direction = vec3(d[0], d[1], d[2]),
 		                     .value = value };
-	return level_new(out, first->surface, false, &field, first->tolerance, r);
+	enum status st = level_new(out, first->surface, false, &field, first->tolerance, r);
+	if (st == ST_OK)
+		(*out)->tolerance_uv = first->tolerance_uv;
+	return st;
+}
+
+enum status level_set_tolerance_uv(struct level *l, double tolerance, const struct report *r)
+{
+	if (!(tolerance > 0))
+		return report_error(r, ST_PARAMETER,
+		                    "tolerance %g in u,v, expected a number greater than 0",
+		                    tolerance);
+	l->tolerance_uv = tolerance;
+	return ST_OK;
 }
 
 void level_destroy(struct level *l)

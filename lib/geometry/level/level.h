@@ -61,6 +61,13 @@ enum status level_create_like(struct level **out, const struct level *first, dou
                               const struct report *r);
 void level_destroy(struct level *l);
 
+/*
+ * Ask for another accuracy beside that in space: the largest distance between the curve in u,v and the
+ * exact one, in the surface's parameters. Before the first patch; a level made like this one later
+ * has it, too. Errors: ST_PARAMETER (not above 0).
+ */
+enum status level_set_tolerance_uv(struct level *l, double tolerance, const struct report *r);
+
 size_t level_patches(const struct level *l);
 
 /*
@@ -82,7 +89,9 @@ struct level_branch {
 	int seams;          /* how often uv jumps, from end to start of a closed one too */
 	int mark[2];        /* the place in `undecided` where it begins and ends; -1: none */
 	double length;      /* in space */
-	double max_error; /* no point of either curve is further from the exact one (docs/contours.md) */
+	/* no point of either curve is further from the exact one, of the one in u,v in the surface's
+	 * parameters (docs/contours.md) */
+	double max_error, max_error_uv;
 };
 
 /*
@@ -111,7 +120,7 @@ struct level_result {
 	size_t n_branches, n_closed;
 	struct level_box *undecided; /* owned; boxes that touch are one */
 	size_t n_undecided;
-	double length, max_error;
+	double length, max_error, max_error_uv;
 };
 
 /*

@@ -7,6 +7,8 @@
 #include "level_private.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000 };
 
@@ -14,6 +16,11 @@ enum { FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000 };
  * tolerance is halved untried. */
 #define HALVING_GAIN 32.0
 #define HOPELESS     3.0
+
+/* A box about a piece is worth looking at below this part of the area, and worth its bounds below that part of
+ * those before. */
+#define NEAR_SHARE 0.25
+#define NEAR_GAIN  0.5
 
 struct station {
 	double uv[2], duv[2]; /* unit speed in space */
@@ -28,6 +35,8 @@ struct follower {
 	double turn; /* sign that makes tangents point along the graph's variable */
 	size_t first;
 	struct prover prover;
+	const double *c; /* f in the prover's box, and its error */
+	double error;
 };
 
 static double dot(const double *a, const double *b)
@@ -241,18 +250,43 @@ static void station_between(const struct follower *w, const struct station *a,
 	station_find(w, at, out);
 }
 
+/* Largest part of the tolerances that is used. */
+static double excess_of(const struct follower *w, const struct proof *p)
+{
+	const struct level *l = w->t->level;
+	return larger(p->space / l->tolerance, p->uv / l->tolerance_uv);
+}
+
+/* Good, or as good as rounding allows. */
+static bool good(const struct follower *w, const struct proof *p)
+{
+	const struct level *l = w->t->level;
+	return p->space <= l->tolerance + p->rounding[0] &&
+	       p->uv <= l->tolerance_uv + p->rounding[1];
+}
+
+static void proof_improve(struct proof *p, const struct proof *by)
+{
+	p->space = smaller(p->space, by->space);
+	p->uv = smaller(p->uv, by->uv);
+	for (int k = 0; k < 2; k++)
+		p->rounding[k] = by->rounding[k];
+}
+
 /* A piece far below the tolerance, whose tangents may be rounding: the bound of a straight one, and
  * how far the cubic can be from that. */
-static double tiny_error(const struct follower *w, const struct station *a, const struct station *b,
-                         double size)
+static void tiny_prove(const struct follower *w, const struct station *a, const struct station *b,
+                       double size, struct proof *best)
 {
 	struct field_point at;
 	struct direction along;
 	struct proof_middle mid = { .first = 0 };
-	double uv[2], shift[3], duv[2], rounding;
+	struct proof proof;
+	double uv[2], shift[3], duv[2], size_uv = 0;
 	struct piece x = { .error = 0 };
 	for (int d = 0; d < 2; d++) {
 		uv[d] = 0.5 * (a->uv[d] + b->uv[d]);
+		size_uv = hypot(size_uv, w->prover.width[d] * (b->uv[d] - a->uv[d]));
 		for (int e = 0; e < 2; e++) {
 			x.uv[e][d] = e ? b->uv[d] : a->uv[d];
 			x.duv[e][d] = b->uv[d] - a->uv[d];
@@ -266,10 +300,68 @@ static double tiny_error(const struct follower *w, const struct station *a, cons
 	level_field_at(w->t, uv[0], uv[1], &at);
 	nearest(&at, &along, shift, duv);
 	middle_set(&at, &along, uv, &mid);
-	return level_prove(&w->prover, &x, &mid, &rounding) + 3 * size;
+	if (!level_prove(&w->prover, &x, &mid, &proof))
+		return;
+	proof.space += 3 * size;
+	proof.uv += 3 * size_uv;
+	proof_improve(best, &proof);
 }
 
-/* expected: what the error should be, from that of a longer piece. */
+static void fit(const struct follower *w, const struct station *a, const struct station *b,
+                int depth, double expected);
+
+/*
+ * Where f bends so much that nothing can be proved from bounds over the whole box, take those of a box about
+ * the piece, if that is smaller by much.
+ */
+static bool fit_nearer(const struct follower *w, const struct station *a, const struct station *b,
+                       const struct proof_middle *mid, int depth)
+{
+	const struct cell_range *box = &w->prover.box;
+	struct cell_range near = *box;
+	double reach = 0, share = 1;
+	for (int d = 0; d < 2; d++)
+		reach = larger(reach, fabs(a->uv[d] - b->uv[d]));
+	for (int d = 0; d < 2; d++) {
+		double lo = smaller(a->uv[d], b->uv[d]), hi = larger(a->uv[d], b->uv[d]);
+		/* rounding moves the curve by error times across; so far it must not bend f either */
+		double margin = reach + 8 * (w->t->level->degree[0] + w->t->level->degree[1]) *
+		                                w->prover.error * fabs(mid->across[d]);
+		near.lo[d] = larger(box->lo[d], lo - margin);
+		near.hi[d] = smaller(box->hi[d], hi + margin);
+		share *= (near.hi[d] - near.lo[d]) / (box->hi[d] - box->lo[d]);
+	}
+	if (!(share > 0 && share < NEAR_SHARE))
+		return false;
+	const int m = w->t->level->degree[0], n = w->t->level->degree[1];
+	double *c = malloc(sizeof *c * w->t->n_field);
+	if (!c) {
+		w->t->failed = true;
+		return true;
+	}
+	memcpy(c, w->c, sizeof *c * w->t->n_field);
+	struct follower inner = *w;
+	inner.error += form_part_error(c, m, n);
+	for (int d = 0; d < 2; d++) {
+		const double width = box->hi[d] - box->lo[d];
+		form_part(c, m, n, d, (near.lo[d] - box->lo[d]) / width,
+		          (near.hi[d] - box->lo[d]) / width);
+	}
+	inner.c = c;
+	level_prover_init(&inner.prover, w->t, &near, c, inner.error);
+	bool better = false;
+	for (int k = 0; k < 3; k++)
+		better |= inner.prover.second[k] < NEAR_GAIN * w->prover.second[k];
+	/* the curve between the stations need not be in the smaller box */
+	inner.prover.diameter = w->prover.diameter;
+	inner.prover.diameter_uv = w->prover.diameter_uv;
+	if (better)
+		fit(&inner, a, b, depth, 0);
+	free(c);
+	return better;
+}
+
+/* expected: what part of the tolerances should be used, from that of a longer piece. */
 static void fit(const struct follower *w, const struct station *a, const struct station *b,
                 int depth, double expected)
 {
@@ -282,40 +374,46 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 	double first = size * 2 / (1 + sqrt(larger(0, (1 + turn) / 2)));
 	struct lengths l = { first, first };
 	/* ends, curve and cubics are in the cell or near it */
-	double error = INFINITY, rounding = 0, rough = 2 * w->prover.diameter;
+	struct proof_middle mid;
+	struct proof proof, best = { 2 * w->prover.diameter, 2 * w->prover.diameter_uv, { 0, 0 } };
 	struct piece x;
-	bool hopeless = expected > HOPELESS * tolerance;
-	if (rough > tolerance && !hopeless && turn > 0.3 && dot(chord, a->dp) > 0) {
+	double used = 0;
+	bool hopeless = expected > HOPELESS, proved = true;
+	if (!good(w, &best) && !hopeless && turn > 0.3 && dot(chord, a->dp) > 0) {
 		double middle[2];
 		for (int d = 0; d < 2; d++)
 			middle[d] =
 			        0.5 * (a->uv[d] + b->uv[d]) + first * (a->duv[d] - b->duv[d]) / 8;
 		if (inside_nearly(middle)) {
-			struct proof_middle mid;
 			double off = middle_fit(w, a, b, &l, middle, &mid);
 			piece_set(a, b, &l, &x);
-			if (off < tolerance * tolerance)
-				error = level_prove(&w->prover, &x, &mid, &rounding);
+			if (off < tolerance * tolerance) {
+				proved = level_prove(&w->prover, &x, &mid, &proof);
+				used = proved ? excess_of(w, &proof) : 0;
+				if (proved)
+					proof_improve(&best, &proof);
+			}
 			uv[0] = middle[0];
 			uv[1] = middle[1];
 		}
 	}
+	if (!proved && fit_nearer(w, a, b, &mid, depth))
+		return;
 	bool tiny = size < 1e-3 * tolerance;
-	if (tiny && smaller(error, rough) > tolerance)
-		error = smaller(error, tiny_error(w, a, b, size));
+	if (tiny && !good(w, &best))
+		tiny_prove(w, a, b, size, &best);
 	bool enough = tiny || depth >= FIT_DEPTH_MAX ||
 	              (depth > FIT_DEPTH_EASY && w->t->pieces.n - w->first > PIECES_MAX);
-	if (smaller(error, rough) <= tolerance + rounding || enough || w->t->failed) {
+	if (good(w, &best) || enough || w->t->failed) {
 		piece_set(a, b, &l, &x);
-		x.error = smaller(error, rough);
+		x.error = best.space;
+		x.error_uv = best.uv;
 		piece_add(w, &x);
 		return;
 	}
 	struct station s;
 	station_between(w, a, b, uv, &s);
-	double next = hopeless          ? expected / HALVING_GAIN
-	              : isfinite(error) ? error / HALVING_GAIN
-	                                : 0;
+	double next = (hopeless ? expected : used) / HALVING_GAIN;
 	fit(w, a, &s, depth + 1, next);
 	fit(w, &s, b, depth + 1, next);
 }
@@ -337,6 +435,8 @@ void level_arc_follow(struct tracer *t, const struct cell_range *box, const doub
 		level_field_at(t, ends[e][0], ends[e][1], &x);
 		station_set(&w, &x, ends[e][0], ends[e][1], &s[e]);
 	}
+	w.c = c;
+	w.error = error;
 	level_prover_init(&w.prover, t, box, c, error);
 	fit(&w, &s[0], &s[1], 0, 0);
 	struct arc *arc = list_add(&t->arcs, sizeof *arc);

@@ -123,7 +123,7 @@ static void spans_add_bridge(const struct joint *j, size_t from, size_t to, bool
 		bridge_add(&t, uv, 0, spans);
 		return;
 	}
-	struct piece p = { .error = gap };
+	struct piece p = { .error = gap, .error_uv = hypot(a.uv[0] - b.uv[0], a.uv[1] - b.uv[1]) };
 	memcpy(p.uv[0], a.uv, sizeof a.uv);
 	memcpy(p.uv[1], b.uv, sizeof b.uv);
 	memcpy(p.p[0], a.p, sizeof a.p);
@@ -148,8 +148,9 @@ static void spans_add_mark(const struct joint *j, size_t end, bool into, struct 
 		return;
 	joint_end_get(j, end, &a);
 	level_mark_middle(j->level->surface, &j->marks[mark - 1], uv, p);
-	struct piece x = { .error = 2 * distance(a.p, p) };
-	if (x.error == 0 || x.error > j->level->tolerance)
+	struct piece x = { .error = 2 * distance(a.p, p),
+		           .error_uv = 2 * hypot(a.uv[0] - uv[0], a.uv[1] - uv[1]) };
+	if (x.error == 0 || x.error > j->level->tolerance || x.error_uv > j->level->tolerance_uv)
 		return;
 	for (int e = 0; e < 2; e++) {
 		memcpy(x.uv[e], (e == 0) == into ? a.uv : uv, sizeof uv);
@@ -280,6 +281,7 @@ static enum status curves_make(struct span *s, size_t n, double size, bool close
 		t += larger(length, 1e-12 * size);
 		out->length += length;
 		out->max_error = larger(out->max_error, p->error);
+		out->max_error_uv = larger(out->max_error_uv, p->error_uv);
 	}
 	knots_put(&out->uv, knot, t, 4);
 	memcpy(out->space.knots, out->uv.knots, sizeof(double) * (out->uv.n + 4));

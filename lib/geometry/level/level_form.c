@@ -92,6 +92,37 @@ WIDE void form_split(double *c, int m, int n, int d, double *lower)
 	}
 }
 
+/* By de Casteljau at x in direction d; the lower or the upper part stays. */
+static void part_keep(double *c, int m, int n, int d, double x, bool upper)
+{
+	const int degree = d == 0 ? m : n, lines = d == 0 ? n : m;
+	const size_t step = d == 0 ? (size_t)n + 1 : 1, across = d == 0 ? 1 : (size_t)n + 1;
+	for (int l = 0; l <= lines; l++) {
+		double *y = c + across * l;
+		for (int r = 1; r <= degree; r++) {
+			if (upper)
+				for (int i = 0; i <= degree - r; i++)
+					y[step * i] += x * (y[step * (i + 1)] - y[step * i]);
+			else
+				for (int i = degree; i >= r; i--)
+					y[step * i] = y[step * (i - 1)] +
+					              x * (y[step * i] - y[step * (i - 1)]);
+		}
+	}
+}
+
+void form_part(double *c, int m, int n, int d, double lo, double hi)
+{
+	part_keep(c, m, n, d, hi, false);
+	part_keep(c, m, n, d, hi > 0 ? lo / hi : 0, true);
+}
+
+double form_part_error(const double *c, int m, int n)
+{
+	/* four times a degree of means, each of three roundings, and the places' own */
+	return 16 * (m + n) * UNIT_ROUNDOFF * form_most(c, (size_t)(m + 1) * (n + 1));
+}
+
 WIDE void form_range(const double *c, size_t count, double *lo, double *hi)
 {
 	double least = c[0], most = c[0];

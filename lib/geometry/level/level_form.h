@@ -27,6 +27,10 @@ void form_divide(double *c, int m, int n, int d, bool upper);
 /* Halve in direction d: `lower` receives the lower half, c keeps the upper one. */
 void form_split(double *c, int m, int n, int d, double *lower);
 
+/* The part from lo to hi, in [0, 1], in direction d; what doing so in both directions rounds off. */
+void form_part(double *c, int m, int n, int d, double lo, double hi);
+double form_part_error(const double *c, int m, int n);
+
 void form_range(const double *c, size_t count, double *lo, double *hi);
 
 /*

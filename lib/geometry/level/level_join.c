@@ -215,6 +215,7 @@ static enum status branch_add(const struct joint *j, size_t *entries, size_t n, 
 	out->n_closed += closed;
 	out->length += b->length;
 	out->max_error = larger(out->max_error, b->max_error);
+	out->max_error_uv = larger(out->max_error_uv, b->max_error_uv);
 	return ST_OK;
 }
 

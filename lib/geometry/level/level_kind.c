@@ -22,7 +22,7 @@ static bool circle_excludes(const struct tracer *t, double radius)
 	const struct level_surface *s = t->level->surface;
 	size_t count = bezier_patch_size(&s->net) / 4;
 	double mx = 0, my = 0;
-	double error = 3 * form_moved_bound(s, s->point).error + 3 * radius * s->of_weights.error;
+	double error = 3 * form_moved_bound(t, s->point).error + 3 * radius * s->of_weights.error;
 	bool inside = true;
 	for (size_t i = 0; i < count; i++) {
 		const double *p = t->points + 4 * i;

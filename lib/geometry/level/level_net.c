@@ -1,9 +1,12 @@
-/* level_net.c - make the patches of a net what lines of curvature need: of degree 2 at least, and
- * short. */
+/* level_net.c - make the patches of a net what fields need: of degree 2 at least, short, of weights that
+ * are not far apart (products of many weights would be rounding where they are small). */
 #include "level_private.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* Patches are halved so often at most, while their weights differ by more. */
+enum { EVEN_ROUNDS = 5, EVEN_RATIO = 4 };
 
 /* Rows of a patch's points in direction d: first point's place and step, in doubles. */
 static size_t row_first(const struct bezier_net *net, int d, int row)
@@ -97,4 +100,39 @@ enum status level_net_halve(struct bezier_net *net, int d, const bool *spans)
 	free(net->breaks[d]);
 	*net = out;
 	return ST_OK;
+}
+
+/* How many times its least weight is the largest on a line of a patch in direction d. */
+static double weight_ratio(const struct bezier_net *net, const double *patch, int d)
+{
+	double most = 1;
+	for (int row = 0; row < net->order[1 - d]; row++) {
+		const double *w = patch + row_first(net, d, row) + 3;
+		double lo = *w, hi = *w;
+		for (int i = 1; i < net->order[d]; i++) {
+			lo = smaller(lo, w[row_step(net, d) * i]);
+			hi = larger(hi, w[row_step(net, d) * i]);
+		}
+		most = larger(most, hi / lo);
+	}
+	return most;
+}
+
+enum status level_net_even(struct bezier_net *net)
+{
+	enum status st = ST_OK;
+	for (int round = 0; st == ST_OK && net->rational && round < 2 * EVEN_ROUNDS; round++) {
+		const int d = round % 2;
+		bool any = false, *halve = calloc((size_t)net->spans[d], sizeof *halve);
+		if (!halve)
+			return ST_RESOURCE;
+		for (int i = 0; i < net->spans[0]; i++)
+			for (int j = 0; j < net->spans[1]; j++)
+				if (weight_ratio(net, bezier_patch(net, i, j), d) > EVEN_RATIO)
+					any = halve[d == 0 ? i : j] = true;
+		if (any)
+			st = level_net_halve(net, d, halve);
+		free(halve);
+	}
+	return st;
 }

@@ -25,11 +25,12 @@ enum { X = 0, U = 4, V = 8, FORMS = 12, EDGE_SAMPLES = 7 };
 struct maker {
 	const struct level_surface *s;
 	double center[3];
-	size_t room;         /* doubles a form */
-	double *x;           /* FORMS forms of the surface and its derivatives, scaled */
-	double *n[3];        /* the normal */
-	struct bound normal; /* its size is that of the terms that it is a sum of */
-	double *cross;       /* U x V, U x X or X x V, one component */
+	const double *points; /* of the patch */
+	size_t room;          /* doubles a form */
+	double *x;            /* FORMS forms of the surface and its derivatives, scaled */
+	double *n[3];         /* the normal */
+	struct bound normal;  /* its size is that of the terms that it is a sum of */
+	double *cross;        /* U x V, U x X or X x V, one component */
 };
 
 static int degree_of(const struct level_surface *s, int form, int d)
@@ -56,17 +57,18 @@ static struct bound normal_bound(const struct maker *k, double hu, double hv)
 	const struct level_surface *s = k->s;
 	const double h[FORMS / 4] = { 1, 2 * hu, 2 * hv }; /* a difference has two errors */
 	/* moved to the centre and turned into the frame: four numbers each */
-	double moved = larger(s->of_points.size, vec3_length(vec3_of(k->center)) * s->weight);
-	double error =
-	        2 * (s->of_points.error + s->of_weights.error * vec3_length(vec3_of(k->center))) +
-	        16 * UNIT_ROUNDOFF * moved;
+	const double away = vec3_length(vec3_of(k->center));
+	struct bound points, weights;
+	level_patch_bounds(s, k->points, &points, &weights);
+	double moved = larger(points.size, away * weights.size);
+	double error = 2 * (points.error + weights.error * away) + 16 * UNIT_ROUNDOFF * moved;
 	struct bound x[FORMS / 4], w[FORMS / 4], sum = { 0 };
 	int m = s->degree[0], n = s->degree[1];
 	for (int g = 0; g < FORMS / 4; g++) {
 		x[g].size = forms_most(k, 4 * g, 3);
 		x[g].error = h[g] * error + 8 * UNIT_ROUNDOFF * x[g].size;
 		w[g].size = forms_most(k, 4 * g + 3, 1);
-		w[g].error = h[g] * s->of_weights.error + 8 * UNIT_ROUNDOFF * w[g].size;
+		w[g].error = h[g] * weights.error + 8 * UNIT_ROUNDOFF * w[g].size;
 	}
 	if (!s->net.rational) {
 		sum = bound_product(x[U / 4], x[V / 4], m, n);
@@ -90,7 +92,7 @@ static void load(struct maker *k, int patch)
 	const double *a = net->breaks[0], *b = net->breaks[1];
 	double hu = p * (a[net->spans[0]] - a[0]) / (a[i0 + 1] - a[i0]);
 	double hv = q * (b[net->spans[1]] - b[0]) / (b[j0 + 1] - b[j0]);
-	const double *c = bezier_patch(net, i0, j0);
+	const double *c = k->points = bezier_patch(net, i0, j0);
 	for (int i = 0; i < (p + 1) * (q + 1); i++, c += 4) {
 		double r[3];
 		for (int d = 0; d < 3; d++)

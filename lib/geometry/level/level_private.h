@@ -78,6 +78,8 @@ struct level_surface {
 	double reach, weight; /* largest |w S| and w of the control points */
 	double extent[3];     /* largest |w x|, |w y|, |w z| of the control points */
 	struct bound of_points, of_weights; /* any component of w S; w */
+	double far,
+	        steps; /* largest |S| of the control points; roundings of a Bezier point, relative */
 	unsigned char *factors;     /* owned; four a patch: how often a factor was taken out of the
 	                               normals on side 2 d + upper */
 	struct root_tables *root;   /* owned; NULL where not needed */
@@ -95,8 +97,8 @@ struct level {
 	double value, sine;  /* isophote: cosine and sine of the angle */
 	bool side;     /* f is a difference of squares, and a condition tells which root is meant */
 	int degree[2]; /* of f */
-	int side_degree[2]; /* of the side condition */
-	double tolerance;
+	int side_degree[2];             /* of the side condition */
+	double tolerance, tolerance_uv; /* in space; in the surface's parameters, INFINITY: any */
 };
 
 /* Kernels are built for wider vectors, too. Nothing is fused, so all give the same bits. (clang 14
@@ -139,6 +141,10 @@ static inline bool level_needs_normals(enum level_kind kind)
 
 size_t level_edge(const struct level_surface *s, int d, int i, int j);
 
+/* of_points and of_weights on one patch: a mean of positive numbers is right to its own size. */
+void level_patch_bounds(const struct level_surface *s, const double *points,
+                        struct bound *of_points, struct bound *of_weights);
+
 static inline size_t level_normals_size(const struct level_surface *s)
 {
 	return (size_t)4 * (s->degree[0] + 1) * (s->degree[1] + 1);
@@ -174,7 +180,8 @@ void *list_add(struct list *l, size_t size); /* zeroed room for one more, or NUL
 struct piece {
 	double uv[2][2], duv[2][2]; /* [end][u or v], in the patch */
 	double p[2][3], dp[2][3];
-	double error; /* no point of both is further from the exact curve */
+	/* no point of both is further from the exact curve; the one in u,v, in the surface's parameters */
+	double error, error_uv;
 };
 
 struct arc {
@@ -253,6 +260,7 @@ enum status level_curvature_agrees(const struct level_surface *s, const int patc
 /* level_net.c: degree 1 to 2 in direction d; halve these spans of it. Errors: ST_RESOURCE. */
 enum status level_net_raise(struct bezier_net *net, int d);
 enum status level_net_halve(struct bezier_net *net, int d, const bool *spans);
+enum status level_net_even(struct bezier_net *net); /* halve where weights are far apart */
 
 /* level_root.c */
 void level_root_tables(struct root_tables *x, const int degree[2], const double *binomial);
@@ -291,9 +299,16 @@ struct prover {
 	const struct patch_shape *shape;
 	struct cell_range box;
 	bool rational;
-	double second[3]; /* of f, in the cell */
-	double error;     /* of f, where it is evaluated */
-	double diameter;  /* of the cell, in space */
+	double second[3];             /* of f, in the cell */
+	double error;                 /* of f, where it is evaluated */
+	double width[2];              /* of the patch, in the surface's parameters */
+	double diameter, diameter_uv; /* of the cell, in space and in those parameters */
+};
+
+/* How far a piece may be from the exact curve: in space; the one in u,v in the surface's parameters.
+ * `rounding`: the part that comes from the rounding of f, and stays however short the piece. */
+struct proof {
+	double space, uv, rounding[2];
 };
 void level_prover_init(struct prover *p, const struct tracer *t, const struct cell_range *box,
                        const double *c, double error);
@@ -307,10 +322,9 @@ struct proof_middle {
 	double uv[2], across[2], step, first, second;
 };
 
-/* No point of either curve is further from the exact one than this; INFINITY: nothing is known. The
- * part that comes from the rounding of f, and stays however short the piece, is in *rounding. */
-double level_prove(const struct prover *p, const struct piece *x, const struct proof_middle *mid,
-                   double *rounding);
+/* False where nothing is known. */
+bool level_prove(const struct prover *p, const struct piece *x, const struct proof_middle *mid,
+                 struct proof *out);
 
 /* Ends of a strand on the border of its patch, or loose inside. */
 enum strand_end_kind { STRAND_BORDER, STRAND_LOOSE, STRAND_CLOSED };
@@ -330,7 +344,7 @@ struct patch_header {
 	char magic[8]; /* level_join refuses others */
 	int patch, n_strands, n_pieces, n_undecided;
 };
-#define PATCH_MAGIC "level 2"
+#define PATCH_MAGIC "level 3"
 
 enum link_kind { LINK_NONE, LINK_STRAND, LINK_END };
 

@@ -20,6 +20,10 @@ enum { LANES = 4, NODES = PROOF_NODES, HALF = NODES / 2 };
 
 /* The ellipse's sum of half axes is the larger the shorter the piece, up to this. */
 #define RHO_MAX 48.0
+#define RHO_MIN 2.0
+
+/* A rest below this part of what it is added to is small enough. */
+#define REST_SHARE 0.01
 
 void level_proof_tables(struct proof_tables *p)
 {
@@ -144,7 +148,12 @@ void level_prover_init(struct prover *p, const struct tracer *t, const struct ce
 	p->second[0] = second[0] / (hu * hu);
 	p->second[1] = second[1] / (hu * hv);
 	p->second[2] = second[2] / (hv * hv);
+	for (int d = 0; d < 2; d++) {
+		const double *b = s->net.breaks[d] + t->place[d];
+		p->width[d] = b[1] - b[0];
+	}
 	p->diameter = p->shape->first[0] * hu + p->shape->first[1] * hv;
+	p->diameter_uv = hypot(p->width[0] * hu, p->width[1] * hv);
 	p->error = t->bound.error + (degree[0] + degree[1] + 8) * 4 * UNIT_ROUNDOFF * t->bound.size;
 }
 
@@ -280,8 +289,55 @@ WIDE static void coefficient_sums(const struct proof_tables *table, const double
 	}
 }
 
-double level_prove(const struct prover *p, const struct piece *x, const struct proof_middle *mid,
-                   double *rounding)
+/* What the interpolants leave out, of f and of w (P - S). */
+struct rest {
+	double f, s;
+};
+
+/* From the sizes on the ellipse with that sum of half axes. */
+static struct rest rest_at(const struct prover *p, const double cubic[2][4],
+                           const struct proof_middle *mid, double rho)
+{
+	const struct level *l = p->t->level;
+	const struct level_surface *surface = l->surface;
+	double sigma = 0.5 * (rho + 1 / rho), growth[2], reach;
+	reach = 0.5 * sigma + 0.25 * sigma * sigma * sigma * fabs(mid->first) +
+	        0.0625 * sigma * sigma * sigma * sigma * fabs(mid->second);
+	for (int d = 0; d < 2; d++) {
+		double beyond = larger(0, larger(-cubic[d][0], cubic[d][0] - 1));
+		growth[d] =
+		        1 + 2 * (beyond +
+		                 reach * (fabs(cubic[d][1]) +
+		                          reach * (fabs(cubic[d][2]) + reach * fabs(cubic[d][3]))));
+	}
+	double rest = 4 / (power(rho, NODES - 1) * (rho - 1));
+	/* P is a cubic, its points no further from the patch's first than the patch */
+	return (struct rest){ rest * p->t->most * power(growth[0], l->degree[0]) *
+		                      power(growth[1], l->degree[1]),
+		              rest * p->shape->weight[1] * p->shape->radius *
+		                      (p->rational ? 1 + 2 * power(sigma, 3) : 1) *
+		                      power(growth[0], surface->net.order[0] - 1) *
+		                      power(growth[1], surface->net.order[1] - 1) };
+}
+
+/* From the largest ellipse, or a smaller one where that leaves too much: with high degrees the sizes grow
+ * faster on it than the rest falls. sum: what the interpolants themselves come to. */
+static struct rest rest_least(const struct prover *p, const double cubic[2][4],
+                              const struct proof_middle *mid, double span, const double sum[4])
+{
+	double rho = smaller(4 / larger(2 * span, 1e-3), RHO_MAX);
+	struct rest best = rest_at(p, cubic, mid, rho);
+	while ((best.f > REST_SHARE * sum[3] || best.s > REST_SHARE * (sum[0] + sum[1] + sum[2])) &&
+	       (rho /= 1.5) > RHO_MIN) {
+		struct rest x = rest_at(p, cubic, mid, rho);
+		best.f = smaller(best.f, x.f);
+		best.s = smaller(best.s, x.s);
+	}
+	return best;
+}
+
+bool level_prove(const struct prover *p, const struct piece *x, const struct proof_middle *mid,
+                 struct proof *out)
 {
 	const struct level *l = p->t->level;
 	const struct level_surface *surface = l->surface;
@@ -307,32 +363,13 @@ double level_prove(const struct prover *p, const struct piece *x, const struct p
 		s[j] = t + t * r * (mid->first * (1 - 2 * t) + mid->second * t * r);
 	}
 	if (fabs(mid->first) + fabs(mid->second) > 0.5)
-		return INFINITY;
+		return false;
 	sample(p, x, s, v);
 	coefficient_sums(table, v, sum);
 
-	/* the rest of both, on the ellipse */
-	double size = larger(2 * larger(span[0], span[1]), 1e-3);
-	double rho = smaller(4 / size, RHO_MAX), sigma = 0.5 * (rho + 1 / rho), growth[2], reach;
-	reach = 0.5 * sigma + 0.25 * sigma * sigma * sigma * fabs(mid->first) +
-	        0.0625 * sigma * sigma * sigma * sigma * fabs(mid->second);
-	for (int d = 0; d < 2; d++) {
-		double beyond = larger(0, larger(-cubic[d][0], cubic[d][0] - 1));
-		growth[d] =
-		        1 + 2 * (beyond +
-		                 reach * (fabs(cubic[d][1]) +
-		                          reach * (fabs(cubic[d][2]) + reach * fabs(cubic[d][3]))));
-	}
-	double rest = 4 / (power(rho, NODES - 1) * (rho - 1));
-	double rest_f =
-	        rest * p->t->most * power(growth[0], l->degree[0]) * power(growth[1], l->degree[1]);
-	/* P is a cubic, its points no further from the patch's first than the patch */
-	double rest_s = rest * p->shape->weight[1] * p->shape->radius *
-	                (p->rational ? 1 + 2 * power(sigma, 3) : 1) *
-	                power(growth[0], surface->net.order[0] - 1) *
-	                power(growth[1], surface->net.order[1] - 1);
-	double f = sum[3] + rest_f + p->error;
-	double e = (sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) + rest_s) /
+	struct rest rest = rest_least(p, cubic, mid, larger(span[0], span[1]), sum);
+	double f = sum[3] + rest.f + p->error;
+	double e = (sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) + rest.s) /
 	                   p->shape->weight[0] +
 	           4 * (surface->of_points.error + 16 * UNIT_ROUNDOFF * surface->reach);
 
@@ -350,8 +387,11 @@ double level_prove(const struct prover *p, const struct piece *x, const struct p
 	double turned =
 	        w[0] * (c[0] * away[0] + c[1] * away[1]) + w[1] * (c[1] * away[0] + c[2] * away[1]);
 	if (!(bent < 0.5))
-		return INFINITY;
+		return false;
 	double step = (mid->step + turned) / (1 - bent);
-	*rounding = p->error * step;
-	return e + f * step;
+	double step_uv = hypot(w[0] * p->width[0], w[1] * p->width[1]);
+	*out = (struct proof){ e + f * step,
+		               f * step_uv / (1 - bent),
+		               { p->error * mid->step, p->error * step_uv } };
+	return isfinite(out->space) && isfinite(out->uv);
 }

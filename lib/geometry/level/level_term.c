@@ -53,11 +53,13 @@ struct form form_normal(struct tracer *t, int d)
 	return f;
 }
 
-struct bound form_moved_bound(const struct level_surface *s, const double from[3])
+struct bound form_moved_bound(const struct tracer *t, const double from[3])
 {
+	struct bound points, weights;
+	level_patch_bounds(t->level->surface, t->points, &points, &weights);
 	double away = vec3_length(vec3_of(from));
-	struct bound b = { s->of_points.size + away * s->of_weights.size, 0 };
-	b.error = 2 * s->of_points.error + away * s->of_weights.error + 16 * UNIT_ROUNDOFF * b.size;
+	struct bound b = { points.size + away * weights.size, 0 };
+	b.error = 2 * points.error + away * weights.error + 16 * UNIT_ROUNDOFF * b.size;
 	return b;
 }
 
@@ -65,6 +67,8 @@ void form_points(struct tracer *t, const double from[3], struct form out[4])
 {
 	const struct level_surface *s = t->level->surface;
 	int m = s->net.order[0] - 1, n = s->net.order[1] - 1;
+	struct bound of_points, of_weights, moved = form_moved_bound(t, from);
+	level_patch_bounds(s, t->points, &of_points, &of_weights);
 	for (int d = 0; d < 4; d++) {
 		struct form f = form_new(t, m, n);
 		for (size_t i = 0; i < form_count(m, n); i++) {
@@ -72,7 +76,7 @@ void form_points(struct tracer *t, const double from[3], struct form out[4])
 			f.c[i] = d == 3 ? p[3]
 			                : r[0] * p[0] + r[1] * p[1] + r[2] * p[2] - from[d] * p[3];
 		}
-		f.b = d == 3 ? s->of_weights : form_moved_bound(s, from);
+		f.b = d == 3 ? of_weights : moved;
 		f.b.size = form_most(f.c, form_count(m, n));
 		form_scale(f.c, m, n, s->binomial, false);
 		out[d] = f;

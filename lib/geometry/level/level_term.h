@@ -33,7 +33,7 @@ void form_tighten(const struct tracer *t, struct form *f);
 struct form form_normal(struct tracer *t, int d);
 
 /* Of a component of X - from w in the frame. */
-struct bound form_moved_bound(const struct level_surface *s, const double from[3]);
+struct bound form_moved_bound(const struct tracer *t, const double from[3]);
 
 /* X - from w, in the frame: three components and w. */
 void form_points(struct tracer *t, const double from[3], struct form out[4]);
