@@ -32,7 +32,7 @@ struct view_state {
 	bool has_pivot;    /* false at the start of a drag */
 };
 
-struct view; /* opaque; GL objects and tessellations, cached by id and revision */
+struct view; /* opaque; GL objects and tessellations of one world, cached by id and revision */
 
 /* A GL context of 3.3 or later must be current, and the same one in every other call.
  * Errors: ST_RESOURCE with the GL version found and the one needed. */
