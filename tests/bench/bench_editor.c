@@ -90,9 +90,16 @@ static void run(struct view *v, struct world *w)
 	s.moving = false;
 	for (more = true; more;)
 		frame(v, w, &s, &more);
-	for (int i = 0; i < FRAMES / 4; i++)
+	for (int i = 0; i < FRAMES / 4; i++) {
+		view_rotate(&s, w, 0.01, 0);
 		ms[i] = frame(v, w, &s, &more);
+	}
 	print("frame at rest, the same, 4 samples a pixel", ms, FRAMES / 4, 0);
+	for (int i = 0; i < FRAMES; i++) {
+		s.probe = (struct mark){ world_at(w, 0)->id, 10 + 0.1 * i, 10 };
+		ms[i] = frame(v, w, &s, &more);
+	}
+	print("frame with the probe following the mouse", ms, FRAMES, 16);
 	struct pick pick;
 	view_pick(v, w, &s, 1, 1, true, 0, &pick);
 	for (int i = 0; i < PICKS; i++) {

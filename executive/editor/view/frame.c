@@ -3,6 +3,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "hash.h"
 #include "view_private.h"
 
 enum { SAMPLES = 4 };
@@ -46,6 +47,7 @@ void view_destroy(struct view *v)
 	programs_finish(&v->programs);
 	target_finish(&v->fine);
 	target_finish(&v->plain);
+	target_finish(&v->still);
 	shapes_finish(&v->shapes);
 	maps_finish(v);
 	results_finish(v);
@@ -212,25 +214,118 @@ void drawing_finish(struct drawing *d)
 	d->things = NULL;
 }
 
-static enum status draw_all(struct drawing *d)
+static void clear(const struct drawing *d)
 {
 	glViewport(0, 0, d->camera.width, d->camera.height);
 	glDisable(GL_SCISSOR_TEST);
 	glDepthMask(GL_TRUE);
 	glClearColor((float)d->ground.r, (float)d->ground.g, (float)d->ground.b, 1);
 	glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-	texts_begin(d->view);
-	enum status st = ST_OK;
-	if (!images_draw(d)) {
-		st = maps_update(d);
-		if (st == ST_OK)
-			st = scene_draw(d);
-		if (st == ST_OK)
-			marks_draw(d);
-		if (st == ST_OK && d->state->axes)
-			axes_draw(d);
+}
+
+static enum status draw_things(struct drawing *d)
+{
+	clear(d);
+	d->has_image = images_draw(d);
+	if (d->has_image)
+		return ST_OK;
+	enum status st = maps_update(d);
+	return st == ST_OK ? scene_draw(d) : st;
+}
+
+/* What lies over the things and follows the mouse. */
+static void draw_above(struct drawing *d)
+{
+	if (d->has_image)
+		return;
+	glDisable(GL_DEPTH_TEST);
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	hover_draw(d);
+	marks_draw(d);
+	if (d->state->axes)
+		axes_draw(d);
+}
+
+static void copy(const struct target *from, GLuint to, int x, int y)
+{
+	glBindFramebuffer(GL_READ_FRAMEBUFFER, from->frame);
+	glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+	glBlitFramebuffer(0, 0, from->width, from->height, x, y, x + from->width, y + from->height,
+	                  GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+/* All that the things' picture depends on, but for what is drawn above them. */
+static uint64_t picture_of(const struct drawing *d)
+{
+	struct {
+		uint64_t world;
+		struct camera camera;
+		double scale;
+		int theme, only, quantity, chosen, hover;
+	} x;
+	const struct view_state *s = d->state;
+	memset(&x, 0, sizeof x);
+	x.world = world_revision(d->world);
+	x.camera.kind = d->camera.kind;
+	x.camera.width = d->camera.width;
+	x.camera.height = d->camera.height;
+	x.camera.eye = d->camera.eye;
+	x.camera.right = d->camera.right;
+	x.camera.up = d->camera.up;
+	x.camera.ahead = d->camera.ahead;
+	x.camera.half = d->camera.half;
+	x.scale = d->frame.scale;
+	x.theme = s->theme;
+	x.only = s->only;
+	x.quantity = s->quantity;
+	x.chosen = s->chosen;
+	x.hover = s->hover_point < 0 ? s->hover_thing : 0;
+	return checksum_bytes(&x, sizeof x) | 1;
+}
+
+/* At rest the things' picture is kept: what follows the mouse is drawn over a copy. */
+static enum status draw_at_rest(struct drawing *d)
+{
+	struct view *v = d->view;
+	const uint64_t picture = picture_of(d);
+	const int width = d->camera.width, height = d->camera.height;
+	if (v->still_of == picture && v->still.width == width && v->still.height == height) {
+		d->has_image = v->still_is_image;
+		return ST_OK;
 	}
-	texts_end(d->view);
+	v->still_of = 0;
+	enum status st = target_init(&v->fine, width, height, SAMPLES, d->report);
+	if (st == ST_OK)
+		st = target_init(&v->still, width, height, 0, d->report);
+	if (st != ST_OK)
+		return st;
+	glBindFramebuffer(GL_FRAMEBUFFER, v->fine.frame);
+	st = draw_things(d);
+	copy(&v->fine, v->still.frame, 0, 0);
+	if (st == ST_OK && !d->more) {
+		v->still_of = picture;
+		v->still_is_image = d->has_image;
+	}
+	return st;
+}
+
+static enum status draw_all(struct drawing *d)
+{
+	struct view *v = d->view;
+	enum status st = target_init(&v->plain, d->camera.width, d->camera.height, 0, d->report);
+	if (st == ST_OK && !d->state->moving) {
+		st = draw_at_rest(d);
+		if (st == ST_OK)
+			copy(&v->still, v->plain.frame, 0, 0);
+		glBindFramebuffer(GL_FRAMEBUFFER, v->plain.frame);
+		glViewport(0, 0, d->camera.width, d->camera.height);
+	} else if (st == ST_OK) {
+		glBindFramebuffer(GL_FRAMEBUFFER, v->plain.frame);
+		st = draw_things(d);
+	}
+	if (st == ST_OK)
+		draw_above(d);
 	return st;
 }
 
@@ -243,17 +338,13 @@ enum status view_draw(struct view *v, const struct world *w, const struct view_s
 	if (width < 1 || height < 1)
 		return ST_OK;
 	glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
-	struct target *t = s->moving ? &v->plain : &v->fine;
-	enum status st = target_init(t, width, height, s->moving ? 0 : SAMPLES, r);
-	if (st == ST_OK)
-		st = drawing_init(&d, v, w, s, width, height, r);
+	enum status st = drawing_init(&d, v, w, s, width, height, r);
 	if (st == ST_OK) {
-		glBindFramebuffer(GL_FRAMEBUFFER, t->frame);
+		texts_begin(v);
 		st = draw_all(&d);
-		glBindFramebuffer(GL_READ_FRAMEBUFFER, t->frame);
-		glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)bound);
-		glBlitFramebuffer(0, 0, width, height, x, y, x + width, y + height,
-		                  GL_COLOR_BUFFER_BIT, GL_NEAREST);
+		texts_end(v);
+		if (st == ST_OK)
+			copy(&v->plain, (GLuint)bound, x, y);
 		*more = d.more || s->moving;
 		drawing_finish(&d);
 	}

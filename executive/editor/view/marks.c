@@ -79,8 +79,6 @@ static void draw_mark(struct drawing *d, const struct mark *m)
 
 void marks_draw(struct drawing *d)
 {
-	glDisable(GL_DEPTH_TEST);
-	glEnable(GL_BLEND);
 	for (int k = 0; k < world_marks(d->world); k++)
 		draw_mark(d, world_mark(d->world, k));
 	if (d->state->probe.thing)

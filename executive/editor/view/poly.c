@@ -147,15 +147,42 @@ static void add_span(struct poly *p, const struct poly_line *line, double t0, do
 	}
 }
 
+/* Spans may be many more than it takes: leave out what the chords between others are near to. */
+static void thin_out(struct poly *p, int first, double tolerance)
+{
+	enum { REACH = 32 };
+	int n = first + 1;
+	for (int anchor = first; anchor + 1 < p->n;) {
+		int next = anchor + 1;
+		for (int far = anchor + 2; far < p->n && far - anchor <= REACH; far++) {
+			bool near = p->v[far].part >= 0 && p->v[anchor].part >= 0;
+			for (int k = anchor + 1; k < far && near; k++)
+				near = p->v[k].part >= 0 &&
+				       distance(poly_at(p, k), poly_at(p, anchor),
+				                poly_at(p, far)) <= tolerance;
+			if (!near)
+				break;
+			next = far;
+		}
+		p->v[n] = p->v[next];
+		p->t[n++] = p->t[next];
+		anchor = next;
+	}
+	p->n = n;
+}
+
 void poly_add_line(struct poly *p, const struct poly_line *line)
 {
 	const double *b = line->breaks;
+	const int first = p->n;
 	if (line->segments)
 		add_span(p, line, b[0], b[line->n_breaks - 1], line->segments);
 	else
 		for (int i = 0; i + 1 < line->n_breaks; i++)
 			add_span(p, line, b[i], b[i + 1], 1);
 	poly_end(p);
+	if (!line->segments && !p->failed && p->n > first)
+		thin_out(p, first, line->tolerance);
 }
 
 double *poly_breaks(const struct curve *c, int *n)

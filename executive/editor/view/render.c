@@ -232,8 +232,8 @@ enum status render_write(const struct world *w, const char *path, const struct r
 	if (st != ST_OK)
 		return st;
 	/* the writers open by name; a file that has none yet is found by its number */
-	char *name = file.temp ? strdup(file.temp)
-	                       : text_print("/proc/self/fd/%d", fileno(file.stream));
+	char *name =
+	        file.temp ? strdup(file.temp) : text_print("/proc/self/fd/%d", fileno(file.stream));
 	if (!name)
 		st = report_error(r, ST_RESOURCE, "cannot write '%s': memory ran out", path);
 	else

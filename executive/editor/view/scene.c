@@ -272,7 +272,7 @@ static void draw_nets(struct drawing *d)
 }
 
 /* The control point under the mouse. */
-static void draw_hover(struct drawing *d)
+void hover_draw(struct drawing *d)
 {
 	for (int i = 0; i < d->n_shown; i++) {
 		const struct poly *points = &d->shown[i]->poly[SHAPE_POINTS];
@@ -339,6 +339,5 @@ enum status scene_draw(struct drawing *d)
 	draw_curves(d);
 	glDisable(GL_DEPTH_TEST);
 	draw_nets(d);
-	draw_hover(d);
 	return st;
 }

@@ -198,16 +198,18 @@ static size_t collect(const struct drawing *d, int quantity, float **values, flo
 
 static void shares(struct key *k, const float *values, const float *weights, size_t n)
 {
-	double below = 0, above = 0, sum = 0;
+	double below = 0, above = 0, nothing = 0, sum = 0;
 	for (size_t i = 0; i < n; i++) {
 		if (isnan(values[i])) {
-			k->nothing = true;
+			nothing += weights[i];
 			continue;
 		}
 		sum += weights[i];
 		below += values[i] < k->map.lo ? weights[i] : 0;
 		above += values[i] > k->map.hi ? weights[i] : 0;
 	}
+	/* a pole is no place */
+	k->nothing = nothing > 1e-6 * (sum + nothing);
 	k->below = sum > 0 ? below / sum : 0;
 	k->above = sum > 0 ? above / sum : 0;
 }

@@ -72,6 +72,9 @@ struct text_plate {
 struct view {
 	struct programs programs;
 	struct target fine, plain; /* with and without multisampling */
+	struct target still;       /* the things at rest */
+	uint64_t still_of;         /* what it shows; 0: nothing */
+	bool still_is_image;
 	struct shapes shapes;
 	struct map *maps;         /* owned */
 	struct result *results;   /* owned */
@@ -102,7 +105,8 @@ struct drawing {
 	struct shape **shown;      /* owned; surfaces and curves that are on */
 	const struct Ful **things; /* owned; the same */
 	int n_shown;
-	bool has_map; /* some surface shows values */
+	bool has_map;   /* some surface shows values */
+	bool has_image; /* an image stands in place of the things */
 	bool more;
 	const struct report *report;
 };
@@ -160,6 +164,7 @@ void axes_draw(struct drawing *d);
 
 /* scene.c: the things themselves. */
 enum status scene_draw(struct drawing *d);
+void hover_draw(struct drawing *d); /* the control point under the mouse */
 /* Draw lines that live for one frame. */
 void scratch_begin(struct drawing *d, struct vec3 origin);
 void scratch_lines(struct drawing *d, const struct gpu_style *style);
