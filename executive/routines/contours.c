@@ -140,3 +140,16 @@ char *contours_default(const struct world *w, bool cylinders, const char *parame
 		return tolerance_of(w, cylinders ? "cylinders" : "planes");
 	return cylinders ? cylinder_default(w, parameter) : plane_default(w, parameter);
 }
+
+bool contours_is_other(bool cylinders, const char *parameter)
+{
+	static const char *const of_planes[] = { "stations", "waterlines", "buttocks", "plane",
+		                                 "half",     "draught",    "bow" };
+
+	if (!cylinders)
+		return !strcmp(parameter, "cylinder");
+	for (size_t k = 0; k < sizeof of_planes / sizeof *of_planes; k++)
+		if (!strcmp(parameter, of_planes[k]))
+			return true;
+	return false;
+}

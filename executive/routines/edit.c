@@ -78,7 +78,7 @@ enum status edit_point(struct act *a, const struct arguments *given)
 
 static int direction(const struct arguments *given)
 {
-	const char *d = argument_text(given, "direction");
+	const char *d = argument_text(given, "along");
 
 	return d && !strcmp(d, "v");
 }
@@ -86,11 +86,18 @@ static int direction(const struct arguments *given)
 enum status edit_elevate(struct act *a, const struct arguments *given)
 {
 	const struct Ful *f = act_current_kind(a, kind_of(a));
-	const int by = (int)argument_number(given, "by", 1);
+	const int order = (int)argument_number(given, "order", 0);
 	struct entity e;
 
 	if (!f)
 		return ST_PARAMETER;
+	const int by = order - (f->entity.kind == ENTITY_SURFACE
+	                                ? f->entity.geometry.order[direction(given)]
+	                                : f->entity.curve.order);
+	if (by <= 0)
+		return report_error(&a->report, ST_PARAMETER,
+		                    "order is %d; it must be above the present one, %d", order,
+		                    order - by);
 	enum status st = change_begin(a, f, &e);
 	if (st != ST_OK)
 		return st;
@@ -126,7 +133,7 @@ static int compare(const void *x, const void *y)
 static enum status take_knots(const struct act *a, const struct arguments *given, double **out,
                               int *n)
 {
-	const char *p = argument_text(given, "at"), *end = p + strlen(p);
+	const char *p = argument_text(given, "knots"), *end = p + strlen(p);
 	bool good = true;
 
 	*n = 0;
@@ -144,8 +151,8 @@ static enum status take_knots(const struct act *a, const struct arguments *given
 		return ST_OK;
 	free(*out);
 	*out = NULL;
-	return report_error(&a->report, ST_PARAMETER, "at is '%s'; it must be numbers by comma",
-	                    argument_text(given, "at"));
+	return report_error(&a->report, ST_PARAMETER, "knots is '%s'; it must be numbers by comma",
+	                    argument_text(given, "knots"));
 }
 
 enum status edit_insert(struct act *a, const struct arguments *given)
@@ -349,16 +356,45 @@ static const struct curve *in_space(const struct act *a, const char *name)
 	return NULL;
 }
 
+/* The two curves named; the second a copy, turned round where that is asked for. */
+static enum status take_edges(const struct act *a, const struct arguments *given,
+                              const struct curve **from, struct curve *to)
+{
+	char *names = strdup(argument_text(given, "curves")),
+	     *comma = names ? strchr(names, ',') : NULL;
+	const struct curve *second = NULL;
+	enum status st = ST_PARAMETER;
+
+	if (!names)
+		return act_memory(a);
+	if (comma)
+		*comma = 0;
+	if (!comma)
+		report_error(&a->report, st, "curves is '%s'; it must be two names by comma",
+		             names);
+	else if ((*from = in_space(a, names)))
+		second = in_space(a, comma + 1);
+	free(names);
+	if (!second)
+		return st;
+	st = curve_copy(to, second);
+	if (st == ST_OK && argument_yes(given, "reverse", false))
+		curve_reverse(to);
+	return st == ST_OK ? st : act_memory(a);
+}
+
 enum status edit_ruled(struct act *a, const struct arguments *given)
 {
-	const struct curve *from = in_space(a, argument_text(given, "from"));
-	const struct curve *to = from ? in_space(a, argument_text(given, "to")) : NULL;
+	const struct curve *from = NULL;
+	struct curve to;
 	struct entity e;
+	enum status st = take_edges(a, given, &from, &to);
 
-	if (!to)
-		return ST_PARAMETER;
+	if (st != ST_OK)
+		return st;
 	entity_init(&e, ENTITY_SURFACE);
-	enum status st = make_ruled(&e.geometry, from, to);
+	st = make_ruled(&e.geometry, from, &to);
+	curve_finish(&to);
 	if (st != ST_OK)
 		return change_failed(a, st, "the degree would be above 25, the highest there is");
 	return world_add(a->world, "ruled surface", argument_text(given, "name"), &e, NULL,

@@ -31,8 +31,10 @@ enum status files_open(struct act *a, const struct arguments *given)
 {
 	const int before = world_count(a->world);
 	const struct progress p = { on_progress, a, a->stop };
-	enum status st = world_open(a->world, argument_text(given, "file"),
-	                            argument_text(given, "entity"), &p, &a->report);
+	const char *entity = argument_text(given, "entity");
+	if (entity && !strcmp(entity, "all"))
+		entity = NULL;
+	enum status st = world_open(a->world, argument_text(given, "file"), entity, &p, &a->report);
 
 	for (int k = before; k < world_count(a->world); k++)
 		act_say(a, "%s: %s", world_at(a->world, k)->name,
@@ -113,9 +115,11 @@ enum status files_close(struct act *a, const struct arguments *given)
 	return st;
 }
 
-/* Ids of the things named by comma, or of all; *ids is fresh. */
+/* Ids of the things named by comma, of all, or (NULL) of the one selected last; *ids is fresh. */
 static enum status list_things(const struct act *a, const char *names, int **ids, int *n)
 {
+	const struct Ful *selected = world_selected(a->world);
+	const bool all = names && !strcmp(names, "all");
 	size_t room = (size_t)world_count(a->world) + 1;
 	enum status st = ST_OK;
 
@@ -126,14 +130,16 @@ static enum status list_things(const struct act *a, const char *names, int **ids
 	char *copy = names ? strdup(names) : NULL, *rest = copy, *one;
 	if (!*ids || (names && !copy))
 		st = act_memory(a);
-	while (st == ST_OK && names && (one = strsep(&rest, ","))) {
+	while (st == ST_OK && names && !all && (one = strsep(&rest, ","))) {
 		const struct Ful *f = world_find(a->world, one, &a->report);
 		if (f)
 			(*ids)[(*n)++] = f->id;
 		else
 			st = ST_PARAMETER;
 	}
-	for (int k = 0; k < world_count(a->world) && !names && st == ST_OK; k++)
+	if (st == ST_OK && !names && selected)
+		(*ids)[(*n)++] = selected->id;
+	for (int k = 0; k < world_count(a->world) && all && st == ST_OK; k++)
 		(*ids)[(*n)++] = world_at(a->world, k)->id;
 	free(copy);
 	return st;

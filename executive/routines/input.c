@@ -1,4 +1,6 @@
 /* input.c - geometry from the project's files and from IGES, one kind at a time. */
+#include <string.h>
+
 #include "private.h"
 
 static void on_progress(void *data, double fraction)
@@ -29,5 +31,8 @@ enum status input_recall(struct act *a, const struct arguments *given)
 
 enum status input_iges(struct act *a, const struct arguments *given)
 {
-	return open_kind(a, argument_text(given, "file"), argument_text(given, "entity"));
+	const char *entity = argument_text(given, "entity");
+
+	return open_kind(a, argument_text(given, "file"),
+	                 entity && strcmp(entity, "all") ? entity : NULL);
 }

@@ -65,6 +65,8 @@ enum status rows_copy(struct argument_row **out, const struct argument_row *rows
 enum status rows_from_state(struct argument_row *rows, const struct routine *t,
                             const struct world *w);
 /* contours.c: what the settings of planes and cylinders make of a row's default. Fresh or NULL. */
+/* Is that parameter of the worker for the other leaf, planes or cylinders? */
+bool contours_is_other(bool cylinders, const char *parameter);
 char *contours_default(const struct world *w, bool cylinders, const char *parameter);
 
 #endif

@@ -20,7 +20,7 @@
 
 const struct argument_row rows_open[] = {
 	READ("file", "File", GEOMETRY, "geometry file"),
-	MAY(ENTITIES, "entity", "Entities", NULL, "which of its entities, by comma: number, name, or D and Directory Entry number; all where left out"),
+	MAY(ENTITIES, "entity", "Entities", NULL, "which of its entities, by comma: number, name, or D and Directory Entry number; or all"),
 	END };
 const struct argument_row rows_recall[] = { READ("name", "File", "*.base", "file in the project folder"), END };
 const struct argument_row rows_entities_file[] = {
@@ -37,7 +37,7 @@ const struct argument_row rows_close[] = {
 	YESNO("discard", "Discard edits", "no", "close it though it is not saved"),
 	END };
 const struct argument_row rows_export[] = {
-	MAY(TEXT, "entities", "Entities", NULL, "names by comma; all that is open where left out"),
+	MAY(TEXT, "entities", "Entities", NULL, "names by comma, or all; the current thing where left out"),
 	WRITE("to", "File", "*.igs *.iges *.g2 *.obj *.ply *.stl *.csv *.base", "file to write; its extension says in which format"),
 	END };
 const struct argument_row rows_picture[] = {
@@ -66,6 +66,7 @@ const struct argument_row rows_surface_resolution[] = {
 	WHOLE("lines_v", "Lines in v", "7", 0, 10000, "isoparametric lines between the borders, v constant"),
 	WHOLE("segments", "Segments", "0", 0, 100000, "segments of a line; 0: as exact as can be seen"),
 	END };
+const struct argument_row rows_lines[] = { YESNO("on", "Shown", "yes", "draw them or not"), END };
 const struct argument_row rows_on[] = { YESNO("on", "Shown", "yes", "draw the current surface or not"), END };
 
 #define FAMILY(n) "planes." n
@@ -124,6 +125,7 @@ const struct argument_row rows_reflection[] = {
 	SET(NUMBER, "spacing", "Spacing", 1e-300, 1e300, "file", "reflection.spacing", "distance from one light line to the next"),
 	SET(VECTOR, "point", "Point", 1, 0, "file", "reflection.point", "a point of the middle light line"),
 	SET(VECTOR, "direction", "Direction", 1, 0, NULL, "reflection.direction", "direction of the light lines, any length"),
+	SET(VECTOR, "across", "Across", 1, 0, NULL, "reflection.across", "direction from one line to the next, any length"),
 	END };
 
 #define AT(what) { .name = "index", .type = ARGUMENT_TEXT, .prompt = "Point", .help = what }
@@ -137,9 +139,9 @@ const struct argument_row rows_surface_edit[] = {
 	MAY(VECTOR, "to", "To", "file", "where it goes"),
 	{ .name = "weight", .type = ARGUMENT_NUMBER, .prompt = "Weight", .min = 1e-9, .max = 1e9, .optional = true, .help = "its new weight" },
 	END };
-#define ALONG CHOICE("direction", "Direction", "u", "u|v", "along which parameter")
-#define RAISE WHOLE("by", "Raise by", "1", 1, 24, "how much higher the degree becomes")
-#define KNOTS TEXT("at", "Knots", NULL, "parameters where knots go in, by comma")
+#define ALONG CHOICE("along", "Along", "u", "u|v", "which parameter")
+#define RAISE { .name = "order", .type = ARGUMENT_INTEGER, .prompt = "Order", .min = 2, .max = 26, .help = "the new order, degree + 1; not below the one there is" }
+#define KNOTS TEXT("knots", "Knots", NULL, "parameters where knots go in, by comma")
 #define PLACE { .name = "at", .type = ARGUMENT_NUMBER, .prompt = "At", .min = 1, .max = 0, .help = "parameter of the cut" }
 const struct argument_row rows_elevate[] = { RAISE, END };
 const struct argument_row rows_elevate_d[] = { ALONG, RAISE, END };
@@ -154,8 +156,8 @@ const struct argument_row rows_fit[] = {
 	MAY(TEXT, "name", "Name", NULL, "of the new curve"),
 	END };
 const struct argument_row rows_ruled[] = {
-	KIND(CURVE, "from", "First curve", NULL, "curve at v = 0"),
-	KIND(CURVE, "to", "Second curve", NULL, "curve at v = 1"),
+	TEXT("curves", "Curves", NULL, "names of the two edges, by comma"),
+	YESNO("reverse", "Reverse", "no", "turn the second one, if the surface would be twisted"),
 	MAY(TEXT, "name", "Name", NULL, "of the new surface"),
 	END };
 
@@ -167,15 +169,20 @@ const struct argument_row rows_mirror[] = {
 	MAY(VECTOR, "normal", "Normal", NULL, "direction across the plane, any length"),
 	YESNO("copy", "Copy", "yes", "leave it as it is and mirror a copy"),
 	WHAT, END };
-const struct argument_row rows_move[] = { { .name = "by", .type = ARGUMENT_VECTOR, .prompt = "By", .unit = "file", .help = "how far along x, y and z" }, COPY, WHAT, END };
+const struct argument_row rows_move[] = {
+	MAY(VECTOR, "by", "By", "file", "how far along x, y and z"),
+	MAY(VECTOR, "from", "From", "file", "instead: a point"),
+	MAY(VECTOR, "to", "To", "file", "and where that point goes"),
+	COPY, WHAT, END };
 const struct argument_row rows_rotate[] = {
-	{ .name = "angle", .type = ARGUMENT_NUMBER, .prompt = "Angle", .min = -3600, .max = 3600, .unit = "deg", .help = "counterclockwise seen against the axis" },
+	{ .name = "angle", .type = ARGUMENT_NUMBER, .prompt = "Angle", .min = -360, .max = 360, .unit = "deg", .help = "counterclockwise seen against the axis" },
 	{ .name = "axis", .type = ARGUMENT_VECTOR, .prompt = "Axis", .def = "0,0,1", .help = "direction of the axis, any length" },
 	{ .name = "point", .type = ARGUMENT_VECTOR, .prompt = "Point", .def = "0,0,0", .unit = "file", .help = "a point of the axis" },
 	COPY, WHAT, END };
 const struct argument_row rows_scale[] = {
-	TEXT("by", "By", NULL, "one factor, or one each for x, y and z, by comma"),
-	{ .name = "point", .type = ARGUMENT_VECTOR, .prompt = "Point", .def = "0,0,0", .unit = "file", .help = "the point that stays" },
+	MAY(TEXT, "factor", "Factor", NULL, "one factor, or one each for x, y and z, by comma"),
+	{ .name = "about", .type = ARGUMENT_VECTOR, .prompt = "About", .def = "0,0,0", .unit = "file", .help = "the point that stays" },
+	{ .name = "unit", .type = ARGUMENT_CHOICE, .prompt = "Unit", .choices = "mm|cm|m|in|ft", .optional = true, .help = "instead: the unit it is to be in, from the unit of its file" },
 	COPY, WHAT, END };
 
 const struct argument_row rows_background[] = { KIND(COLOR, "color", "Color", NULL, "color of the background, as #101418"), END };

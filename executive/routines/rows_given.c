@@ -168,6 +168,9 @@ enum status rows_of_worker(struct argument_row **out, const struct routine *t, s
 		st = act_memory(a);
 	json_array_foreach(parameters, k, o)
 	{
+		if (t->run == job_contours &&
+		    contours_is_other(t->detail == 1, json_text(o, "name", "")))
+			continue;
 		if (st == ST_OK && (st = row_of_parameter(&(*out)[n], t, o, a->world)) == ST_OK)
 			n++;
 	}

@@ -164,8 +164,8 @@ enum status surface_quantity(struct act *a, const struct arguments *given)
 }
 
 /* Show lines that a worker made, where they lie under their name. */
-static enum status show_result(struct act *a, const int *ids, int n, const char *suffix,
-                               const char *worker, const char *code)
+static enum status show_result(struct act *a, const struct arguments *given, const int *ids, int n,
+                               const char *suffix, const char *worker, const char *code)
 {
 	char hash[33], *path = n ? work_name(a, ids, n, suffix) : NULL;
 	const int thing = n > 1 ? 0 : n ? ids[0] : 0;
@@ -175,6 +175,11 @@ static enum status show_result(struct act *a, const int *ids, int n, const char 
 		return ST_PARAMETER;
 	if (!path)
 		return act_memory(a);
+	if (!argument_yes(given, "on", true)) {
+		world_hide(a->world, OVERLAY_LINES, thing);
+		free(path);
+		return ST_OK;
+	}
 	if (!path_exists(path))
 		st = report_error(&a->report, ST_INPUT, "'%s' is not there; %s computes it",
 		                  path_file_name(path), code);
@@ -196,13 +201,12 @@ enum status surface_show_lines(struct act *a, const struct arguments *given)
 {
 	const struct Ful *f = act_current(a, false);
 
-	(void)given;
 	if (!f)
 		return ST_PARAMETER;
 	if (!a->routine->detail)
-		return show_result(a, &f->id, 1, ".isophote", "isophotes", "V90");
+		return show_result(a, given, &f->id, 1, ".isophote", "isophotes", "V90");
 	int *ids, n = work_scene(a, &ids);
-	enum status st = show_result(a, ids, n, ".reflect", "reflection", "V94");
+	enum status st = show_result(a, given, ids, n, ".reflect", "reflection", "V94");
 	free(ids);
 	return st;
 }
@@ -212,8 +216,7 @@ enum status contours_show(struct act *a, const struct arguments *given)
 	const bool cylinders = a->routine->detail;
 	int *ids, n = work_scene(a, &ids);
 
-	(void)given;
-	enum status st = show_result(a, ids, n, cylinders ? ".cylinder.contour" : ".contour",
+	enum status st = show_result(a, given, ids, n, cylinders ? ".cylinder.contour" : ".contour",
 	                             "contours", cylinders ? "V170" : "V168");
 	free(ids);
 	return st;

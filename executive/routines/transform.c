@@ -1,10 +1,12 @@
 /* transform.c - mirror, move, rotate, scale. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "change.h"
 #include "number.h"
 #include "refine.h"
+#include "text.h"
 
 /* The thing meant: named, or selected last. */
 static const struct Ful *meant(const struct act *a, const struct arguments *given)
@@ -51,22 +53,87 @@ static void entity_transform(struct entity *e, const double m[3][4])
 	}
 }
 
-static enum status apply(struct act *a, const struct arguments *given, const char *what,
-                         const double m[3][4])
+/* What is done to a thing, or to a copy of it. */
+struct transform {
+	const char *what, *name; /* name of the copy, NULL: of the thing, made unique */
+	double m[3][4];
+	bool mirrored;
+	const struct unit *unit; /* it gets, or NULL */
+};
+
+static const struct unit {
+	const char *name;
+	double mm;
+} units[] = { { "mm", 1 }, { "cm", 10 }, { "m", 1000 }, { "in", 25.4 }, { "ft", 304.8 } };
+
+/* A mirror turns the normal; u turned round turns it back, so that outside stays outside. */
+static void turn_u(struct entity *e)
+{
+	const double *u = e->geometry.domain[0];
+	const double m[3][4] = { { -1, 0, 0, u[0] + u[1] }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 } };
+
+	surface_reverse(&e->geometry, 0);
+	for (int k = 0; k < e->trim.n; k++) {
+		struct trim_loop *l = &e->trim.loops[k];
+		for (int j = 0; j < l->n; j++) {
+			curve_transform(&l->curves[j], m);
+			curve_reverse(&l->curves[j]);
+		}
+		for (int j = 0; j < l->n / 2; j++) {
+			const struct curve c = l->curves[j];
+			l->curves[j] = l->curves[l->n - 1 - j];
+			l->curves[l->n - 1 - j] = c;
+		}
+	}
+}
+
+static enum status may_mirror(const struct act *a, const struct Ful *f)
+{
+	for (int k = 0; k < world_count(a->world); k++)
+		if (world_at(a->world, k)->on == f->id)
+			return report_error(&a->report, ST_PARAMETER,
+			                    "the curve '%s' lies on '%s'; mirror a copy",
+			                    world_at(a->world, k)->name, f->name);
+	return ST_OK;
+}
+
+static enum status put(struct act *a, const struct Ful *f, const struct transform *t, bool copy,
+                       struct entity *e)
+{
+	const struct origin from = { .copy_of = f->id };
+	int id = f->id;
+	enum status st;
+
+	world_step_begin(a->world, t->what);
+	if (copy)
+		st = world_add_from(a->world, t->what, t->name, e, &from, &id, &a->report);
+	else
+		st = change_end(a, t->what, id, e, true);
+	for (int k = 0; k < world_count(a->world) && st == ST_OK && t->unit; k++)
+		if (world_at(a->world, k)->id == id || world_at(a->world, k)->on == id)
+			st = world_set_unit(a->world, world_at(a->world, k)->id, t->unit->name,
+			                    t->unit->mm, &a->report);
+	world_step_end(a->world, st == ST_OK);
+	return st;
+}
+
+static enum status apply(struct act *a, const struct arguments *given, const struct transform *t)
 {
 	const struct Ful *f = meant(a, given);
+	const bool copy = argument_yes(given, "copy", false);
 	struct entity e;
 
 	if (!f)
 		return ST_PARAMETER;
-	enum status st = change_begin(a, f, &e);
+	enum status st = t->mirrored && !copy ? may_mirror(a, f) : ST_OK;
+	if (st == ST_OK)
+		st = change_begin(a, f, &e);
 	if (st != ST_OK)
 		return st;
-	entity_transform(&e, m);
-	if (!argument_yes(given, "copy", false))
-		return change_end(a, what, f->id, &e, true);
-	const struct origin from = { .copy_of = f->id };
-	return world_add_from(a->world, what, NULL, &e, &from, NULL, &a->report);
+	entity_transform(&e, t->m);
+	if (t->mirrored && e.kind == ENTITY_SURFACE)
+		turn_u(&e);
+	return put(a, f, t, copy, &e);
 }
 
 /* x -> A (x - c) + c */
@@ -96,21 +163,38 @@ enum status transform_mirror(struct act *a, const struct arguments *given)
 	if (!(vec3_length(n) > 0))
 		return report_error(&a->report, ST_PARAMETER, "normal must have a length");
 	const double v[3] = { n.x, n.y, n.z };
-	double m[3][4];
+	const struct Ful *f = meant(a, given);
+	if (!f)
+		return ST_PARAMETER;
+	char *name = text_print("%s-mirror", f->name);
+	if (!name)
+		return act_memory(a);
+	struct transform t = { .what = "mirror", .mirrored = true };
+	t.name = world_find(a->world, name, NULL) ? NULL : name;
 	for (int i = 0; i < 3; i++)
 		for (int j = 0; j < 3; j++)
-			m[i][j] = (i == j) - 2 * v[i] * v[j];
-	about(m, c);
-	return apply(a, given, "mirror", (const double(*)[4])m);
+			t.m[i][j] = (i == j) - 2 * v[i] * v[j];
+	about(t.m, c);
+	enum status st = apply(a, given, &t);
+	free(name);
+	return st;
 }
 
 enum status transform_move(struct act *a, const struct arguments *given)
 {
-	struct vec3 by = vec3(0, 0, 0);
+	struct vec3 by, from, to;
+	const bool has_by = argument_vector(given, "by", &by),
+	           has_from = argument_vector(given, "from", &from),
+	           has_to = argument_vector(given, "to", &to);
 
-	argument_vector(given, "by", &by);
-	const double m[3][4] = { { 1, 0, 0, by.x }, { 0, 1, 0, by.y }, { 0, 0, 1, by.z } };
-	return apply(a, given, "move", m);
+	if (has_from != has_to || has_by == has_to)
+		return report_error(&a->report, ST_PARAMETER, "give by=, or from= and to=");
+	if (has_to)
+		by = vec3_sub(to, from);
+	const struct transform t = {
+		.what = "move", .m = { { 1, 0, 0, by.x }, { 0, 1, 0, by.y }, { 0, 0, 1, by.z } }
+	};
+	return apply(a, given, &t);
 }
 
 /* Sine and cosine, exact at multiples of 90 degrees. */
@@ -143,30 +227,60 @@ enum status transform_rotate(struct act *a, const struct arguments *given)
 	/* Rodrigues */
 	const double v[3] = { axis.x, axis.y, axis.z };
 	const double cross[3][3] = { { 0, -v[2], v[1] }, { v[2], 0, -v[0] }, { -v[1], v[0], 0 } };
-	double m[3][4];
+	struct transform t = { .what = "rotate" };
 	for (int i = 0; i < 3; i++)
 		for (int j = 0; j < 3; j++)
-			m[i][j] = (i == j) * c + (1 - c) * v[i] * v[j] + s * cross[i][j];
-	about(m, at);
-	return apply(a, given, "rotate", (const double(*)[4])m);
+			t.m[i][j] = (i == j) * c + (1 - c) * v[i] * v[j] + s * cross[i][j];
+	about(t.m, at);
+	return apply(a, given, &t);
+}
+
+/* The factor from the unit of its file to another. */
+static enum status take_unit(const struct act *a, const struct arguments *given,
+                             struct transform *t, struct vec3 *by)
+{
+	const struct Ful *f = meant(a, given);
+	const char *name = argument_text(given, "unit");
+
+	if (!f)
+		return ST_PARAMETER;
+	if (!(f->unit_in_mm > 0))
+		return report_error(&a->report, ST_PARAMETER,
+		                    "the unit of '%s' is not known; give a factor", f->name);
+	for (size_t k = 0; k < sizeof units / sizeof *units; k++)
+		if (!strcmp(units[k].name, name))
+			t->unit = &units[k];
+	const double factor = f->unit_in_mm / t->unit->mm;
+	*by = vec3(factor, factor, factor);
+	return ST_OK;
 }
 
 enum status transform_scale(struct act *a, const struct arguments *given)
 {
-	const char *text = argument_text(given, "by");
-	struct vec3 by, at = vec3(0, 0, 0);
+	const char *text = argument_text(given, "factor");
+	struct transform t = { .what = "scale" };
+	struct vec3 by = vec3(0, 0, 0), at = vec3(0, 0, 0);
 	double one;
+	enum status st = ST_OK;
 
-	if (number_parse(text, &one))
+	if (!text == !argument_text(given, "unit"))
+		return report_error(&a->report, ST_PARAMETER, "give factor=, or unit=");
+	if (!text)
+		st = take_unit(a, given, &t, &by);
+	else if (number_parse(text, &one))
 		by = vec3(one, one, one);
-	else if (!argument_vector(given, "by", &by))
+	else if (!argument_vector(given, "factor", &by) ||
+	         strchr(strchr(text, ',') + 1, ',') == NULL)
 		by = vec3(0, 0, 0);
-	if (!(fabs(by.x) > 0 && fabs(by.y) > 0 && fabs(by.z) > 0))
+	if (st != ST_OK)
+		return st;
+	if (!(by.x > 0 && by.y > 0 && by.z > 0))
 		return report_error(&a->report, ST_PARAMETER,
-		                    "by is '%s'; it must be a factor, or X,Y,Z, none of them 0",
-		                    text);
-	argument_vector(given, "point", &at);
-	double m[3][4] = { { by.x, 0, 0, 0 }, { 0, by.y, 0, 0 }, { 0, 0, by.z, 0 } };
-	about(m, at);
-	return apply(a, given, "scale", (const double(*)[4])m);
+		                    "factor is '%s'; it must be a number above 0, or X,Y,Z", text);
+	argument_vector(given, "about", &at);
+	t.m[0][0] = by.x;
+	t.m[1][1] = by.y;
+	t.m[2][2] = by.z;
+	about(t.m, at);
+	return apply(a, given, &t);
 }

@@ -202,3 +202,29 @@ enum status world_rename(struct world *w, int id, const char *name, const struct
 	world_step_end(w, st == ST_OK);
 	return st == ST_OK ? st : out_of_memory(r);
 }
+
+enum status world_set_unit(struct world *w, int id, const char *unit, double unit_in_mm,
+                           const struct report *r)
+{
+	const int at = thing_index(w, id);
+	struct Ful *f = NULL;
+
+	if (at < 0)
+		return thing_missing(id, r);
+	world_step_begin(w, "set the unit");
+	enum status st = history_room(w);
+	if (st == ST_OK)
+		st = ful_copy(&f, w->things[at]);
+	if (st == ST_OK)
+		st = model_set_text(&f->unit, unit);
+	if (st == ST_OK) {
+		f->unit_in_mm = unit_in_mm;
+		f->saved = false;
+		history_record(w, id, at, w->things[at]);
+		w->things[at] = f;
+		w->revision++;
+	} else
+		ful_destroy(f);
+	world_step_end(w, st == ST_OK);
+	return st == ST_OK ? st : out_of_memory(r);
+}

@@ -141,6 +141,9 @@ enum status world_rename(struct world *w, int id, const char *name, const struct
 /* Edits from begin to end are one step; keep false takes them back, as if they had not been. */
 void world_step_begin(struct world *w, const char *what);
 void world_step_end(struct world *w, bool keep);
+/* What its lengths are in; they stay as they are. */
+enum status world_set_unit(struct world *w, int id, const char *unit, double unit_in_mm,
+                           const struct report *r);
 enum status world_undo(struct world *w, const struct report *r);
 enum status world_redo(struct world *w, const struct report *r);
 const char *world_undo_name(const struct world *w); /* "move point 5", NULL: nothing to undo */

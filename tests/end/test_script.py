@@ -144,6 +144,9 @@ def test_routines(project):
     assert grid["type"] == "size" and grid["default"] == "512x512", grid
     assert leaves["V79"]["arguments"][-1]["name"] == "wait"
     assert leaves["V79"]["available"] and not leaves["V0"]["available"]
+    for code in (c for c, leaf in leaves.items() if leaf["available"]):
+        told = [a["name"] for a in project.json("batten", "help", code)["help"][0]["arguments"]]
+        assert sorted(told) == sorted(a["name"] for a in leaves[code]["arguments"]), code
     workers = {w["name"]: w for w in project.json("batten", "workers")["workers"]}
     names = [a["name"] for a in leaves["V90"]["arguments"][:-1]]
     assert names == [p["name"] for p in workers["isophotes"]["parameters"]], names

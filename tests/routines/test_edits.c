@@ -58,9 +58,8 @@ static void test_same_shape(void **state)
 {
 	struct acting *a = *state;
 	struct vec3 before[SAMPLES * SAMPLES], after[SAMPLES * SAMPLES];
-	static const char *const lines[] = { "V128 direction=u by=2", "V128 direction=v",
-		                             "V129 direction=u at=3,1,2",
-		                             "V129 direction=v at=0.1" };
+	static const char *const lines[] = { "V128 along=u order=5", "V128 along=v order=4",
+		                             "V129 along=u knots=3,1,2", "V129 along=v knots=0.1" };
 	const int order = ball(a)->order[0], n = ball(a)->n[1];
 
 	sample(ball(a), before);
@@ -71,9 +70,10 @@ static void test_same_shape(void **state)
 	}
 	assert_int_equal(ball(a)->order[0], order + 2);
 	assert_true(ball(a)->n[1] > n + 1);
-	acting_fails(a, "V128 by=24", ST_PARAMETER, "above 25");
-	acting_fails(a, "V129 at=99", ST_PARAMETER, "outside the domain");
-	acting_fails(a, "V129 at=1,,2", ST_PARAMETER, "numbers by comma");
+	acting_fails(a, "V128 order=27", ST_PARAMETER, "order is '27'");
+	acting_fails(a, "V128 order=5", ST_PARAMETER, "above the present one, 5");
+	acting_fails(a, "V129 knots=99", ST_PARAMETER, "outside the domain");
+	acting_fails(a, "V129 knots=1,,2", ST_PARAMETER, "numbers by comma");
 	for (size_t k = 0; k < sizeof lines / sizeof *lines; k++)
 		acting_does(a, "V182");
 	assert_int_equal(ball(a)->order[0], order);
@@ -109,7 +109,7 @@ static void test_split(void **state)
 	sample(ball(a), before);
 	struct surface whole;
 	assert_int_equal(surface_copy(&whole, ball(a)), ST_OK);
-	acting_does(a, "V130 direction=u at=2");
+	acting_does(a, "V130 along=u at=2");
 	const struct surface *low = ball(a), *high = &acting_thing(a, "ball-2")->entity.geometry;
 	assert_true(low->domain[0][1] == 2 && high->domain[0][0] == 2);
 	for (int k = 0; k <= 20; k++) {
@@ -125,6 +125,23 @@ static void test_split(void **state)
 	surface_finish(&whole);
 }
 
+/* x turned round, u too: so outside is outside. */
+static void test_mirror_image(struct acting *a)
+{
+	const struct surface *s = ball(a), *m = &acting_thing(a, "ball-mirror")->entity.geometry;
+	const double *u = s->domain[0];
+
+	for (int k = 0; k <= 10; k++) {
+		const double t = u[0] + (u[1] - u[0]) * k / 10, v = 0.5;
+		struct vec3 p, pu, pv, q, qu, qv;
+		surface_tangents(s, t, v, &p, &pu, &pv);
+		surface_tangents(m, u[0] + u[1] - t, v, &q, &qu, &qv);
+		const struct vec3 n = vec3_cross(pu, pv), o = vec3_cross(qu, qv);
+		assert_true(distance(vec3(-p.x, p.y, p.z), q) < 1e-14);
+		assert_true(distance(vec3(-n.x, n.y, n.z), o) < 1e-12);
+	}
+}
+
 static void test_transforms(void **state)
 {
 	struct acting *a = *state;
@@ -135,9 +152,12 @@ static void test_transforms(void **state)
 		{ "V185 by=1,2,3", "V185 by=-1,-2,-3" },
 		{ "V186 angle=90 axis=1,0,0 point=0,5,0", "V186 angle=-90 axis=1,0,0 point=0,5,0" },
 		{ "V186 angle=33.3 axis=1,2,3", "V186 angle=33.3 axis=-1,-2,-3" },
-		{ "V187 by=2", "V187 by=0.5" },
-		{ "V187 by=2,4,-8 point=1,1,1", "V187 by=0.5,0.25,-0.125 point=1,1,1" },
-		{ "V184 plane=y copy=no", "V184 plane=y copy=no" },
+		{ "V187 factor=2", "V187 factor=0.5" },
+		{ "V185 from=1,1,1 to=3,1,0", "V185 from=3,1,0 to=1,1,1" },
+		{ "V187 unit=cm", "V187 unit=m" },
+		{ "V187 factor=2,4,8 about=1,1,1", "V187 factor=0.5,0.25,0.125 about=1,1,1" },
+		{ "V184 normal=0,1,0 point=0,4,0 copy=no",
+		  "V184 normal=0,1,0 point=0,4,0 copy=no" },
 		{ "V184 normal=1,1,0 point=3,0,0 copy=no",
 		  "V184 normal=2,2,0 point=0,3,0 copy=no" },
 	};
@@ -151,15 +171,15 @@ static void test_transforms(void **state)
 		sample(ball(a), after);
 		assert_true(largest(before, after) < 1e-13);
 	}
+	acting_does(a, "V187 unit=in");
+	assert_string_equal(acting_thing(a, "ball")->unit, "in");
+	acting_does(a, "V182");
+	assert_string_equal(acting_thing(a, "ball")->unit, "m");
 	acting_does(a, "V184 plane=x");
-	sample(ball(a), before);
-	sample(&acting_thing(a, "ball-2")->entity.geometry, after);
-	for (int k = 0; k < SAMPLES * SAMPLES; k++)
-		after[k].x = -after[k].x;
-	assert_true(largest(before, after) < 1e-15);
+	test_mirror_image(a);
 	acting_fails(a, "V184 plane=x normal=1,0,0", ST_PARAMETER, "plane=x, y or z, or");
 	acting_fails(a, "V184 normal=0,0,0", ST_PARAMETER, "must have a length");
-	acting_fails(a, "V187 by=1,0,1", ST_PARAMETER, "none of them 0");
+	acting_fails(a, "V187 factor=1,0,1", ST_PARAMETER, "above 0");
 	acting_fails(a, "V185 by=1,1,1 name=nobody", ST_PARAMETER, "'nobody' is not open");
 }
 
@@ -174,12 +194,14 @@ static void test_curves(void **state)
 	assert_true(distance(curve_point(c, 1), vec3(4, 0, 0)) < 1e-14);
 	acting_fails(a, "V25 points=0,0,0;1,1,0", ST_INPUT, "points");
 	acting_does(a, "V185 by=0,0,5 copy=yes");
-	acting_does(a, "V30 from=wire to=wire-2 name=wall");
+	acting_does(a, "V30 curves=wire,wire-2 name=wall");
+	acting_fails(a, "V30 curves=wire", ST_PARAMETER, "two names by comma");
+	acting_fails(a, "V30 curves=wire,nobody", ST_PARAMETER, "'nobody' is not open");
 	const struct surface *s = &acting_thing(a, "wall")->entity.geometry;
 	assert_true(distance(surface_point(s, 1, 0.5), vec3(4, 0, 2.5)) < 1e-14);
 	acting_does(a, "V160 curve=wire");
-	acting_does(a, "V107 by=2");
-	acting_does(a, "V108 at=0.3,0.3");
+	acting_does(a, "V107 order=6");
+	acting_does(a, "V108 knots=0.3,0.3");
 	acting_does(a, "V109 at=0.5");
 	const struct Ful *low = acting_thing(a, "wire"), *high = acting_thing(a, "wire-3");
 	assert_true(distance(curve_point(&low->entity.curve, 0.5),
@@ -198,7 +220,7 @@ static void test_on_surface(void **state)
 	acting_does(a, "V117 index=1 to=5,0.5");
 	const struct curve *c = &acting_thing(a, "diagonal")->entity.curve;
 	assert_true(distance(curve_point(c, c->domain[1]), vec3(5, 0.5, 0)) < 1e-15);
-	acting_does(a, "V118 at=0.5");
+	acting_does(a, "V118 knots=0.5");
 	acting_does(a, "V119 at=0.25");
 	assert_int_equal(acting_thing(a, "diagonal-2")->on, acting_thing(a, "diagonal")->on);
 	acting_fails(a, "V185 by=1,1,1 name=diagonal", ST_PARAMETER, "lies on a surface");

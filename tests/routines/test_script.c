@@ -122,8 +122,8 @@ static void test_stops(void **state)
 
 static const char edits[] = "V175 file=\"two balls.base\"\n"
                             "V127 index=2,1 to=0.1,0.2,0.3 weight=2\n"
-                            "V128 direction=v\n"
-                            "V129 direction=u at=0.5,1\n"
+                            "V128 along=v order=4\n"
+                            "V129 along=u knots=0.5,1\n"
                             "V182\n"
                             "V185 by=1,2,3 copy=yes\n"
                             "V180 name=third\n"
@@ -132,7 +132,7 @@ static const char edits[] = "V175 file=\"two balls.base\"\n"
                             "V88 from=10\n"
                             "V25 points=0,0,0;1,1,0;2,0,0;3,1,1 name=wire\n"
                             "V177 name=wire2\n"
-                            "V178 to=all.base\n";
+                            "V178 to=all.base entities=all\n";
 
 static char *read_all(struct acting *a, const char *name)
 {
