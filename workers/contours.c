@@ -210,7 +210,7 @@ const struct worker worker = {
 	.version = 2,
 	.help = "Traces all curves in which planes or cylinders cut the surfaces, joined over their "
 	        "borders, with area, centroid and girth of sections; stations, waterlines and "
-	        "buttocks of a ship as a lines plan.",
+	        "buttocks of a ship as a lines plan. Trims are ignored.",
 	.scene = true,
 	.params = contours_params,
 	.outputs = contours_outputs,

@@ -154,7 +154,7 @@ const struct worker worker = {
 	.title = "lines of constant curvature",
 	.version = 1,
 	.help = "Traces all curves on a surface along which a curvature keeps its value, as splines in "
-	        "u,v and in space with their checked error; Gaussian curvature 0: the parabolic lines.",
+	        "u,v and in space with their checked error; Gaussian curvature 0: the parabolic lines. Trims are ignored.",
 	.params = isocurvature_params,
 	.outputs = isocurvature_outputs,
 	.begin = isocurvature_begin,

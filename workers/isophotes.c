@@ -151,7 +151,7 @@ const struct worker worker = {
 	.title = "isophotes",
 	.version = 2,
 	.help = "Traces all curves on a surface along which the normal keeps its angle to the "
-	        "light, as splines in u,v and in space with their checked error.",
+	        "light, as splines in u,v and in space with their checked error. Trims are ignored.",
 	.params = isophotes_params,
 	.outputs = isophotes_outputs,
 	.begin = isophotes_begin,

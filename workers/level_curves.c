@@ -137,6 +137,26 @@ static enum status branch_add(const struct level_curves *c, int i, int surface,
 	return st;
 }
 
+/* What is known of each box, and how many curves leave it. */
+static enum status boxes_name(struct entity *e, const struct level_result *x)
+{
+	struct text kinds = { 0 }, ends = { 0 };
+	for (size_t k = 0; k < x->n_undecided; k++) {
+		text_add(&kinds, k ? " " : "");
+		text_add(&kinds, level_mark_names[x->undecided[k].kind]);
+		text_add(&ends, k ? " " : "");
+		text_add_number(&ends, x->undecided[k].ends);
+	}
+	enum status st = kinds.failed || ends.failed ? ST_RESOURCE : ST_OK;
+	if (st == ST_OK)
+		st = entity_set_attribute(e, "kinds", kinds.s);
+	if (st == ST_OK)
+		st = entity_set_attribute(e, "ends", ends.s);
+	text_finish(&kinds);
+	text_finish(&ends);
+	return st;
+}
+
 /* Undecided boxes as pairs of corners in u, v. */
 static enum status boxes_add(const struct level_curves *c, int i, int surface, struct model *m)
 {
@@ -159,6 +179,8 @@ static enum status boxes_add(const struct level_curves *c, int i, int surface, s
 	}
 	if (st == ST_OK)
 		st = entity_set_attribute(&e, "undecided", "corners of boxes");
+	if (st == ST_OK)
+		st = boxes_name(&e, x);
 	if (st == ST_OK && c->work->n_surfaces > 1)
 		st = attribute_number(&e, "surface", surface + 1);
 	if (st == ST_OK)

@@ -69,6 +69,13 @@ enum status level_work_init(struct level_work *l, const struct work *w,
                             const struct level_field *fields, int n, double tolerance)
 {
 	const size_t all = (size_t)n * w->n_surfaces;
+	int trimmed = 0;
+	for (int s = 0; s < w->n_surfaces; s++)
+		trimmed += w->entities[s]->trim.n > 0;
+	if (trimmed)
+		report_warning(&w->report,
+		               "trims are ignored: the curves are those of %d whole surfaces",
+		               w->n_surfaces);
 	*l = (struct level_work){ .n = n, .n_surfaces = w->n_surfaces };
 	l->levels = calloc(all, sizeof *l->levels);
 	l->results = calloc(all, sizeof *l->results);

@@ -253,7 +253,7 @@ const struct worker worker = {
 	.title = "reflection lines",
 	.version = 2,
 	.help = "Traces reflection lines, highlight lines or silhouettes of surfaces, as splines in "
-	        "u,v and in space with their checked error.",
+	        "u,v and in space with their checked error. Trims are ignored.",
 	.scene = true,
 	.params = reflection_params,
 	.outputs = reflection_outputs,

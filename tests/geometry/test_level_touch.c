@@ -138,12 +138,59 @@ static void test_crossing(void **state)
 	surface_finish(&s);
 }
 
+/* Two edges leave a corner along one line: no normal there. It is named, not drawn as a region. */
+static void test_singular(void **state)
+{
+	(void)state;
+	struct surface s;
+	assert_int_equal(surface_init(&s, (int[2]){ 3, 3 }, (int[2]){ 3, 3 }), ST_OK);
+	for (int d = 0; d < 2; d++)
+		for (int i = 0; i < 6; i++)
+			s.knots[d][i] = i >= 3;
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < 3; j++)
+			surface_set_point(&s, i, j, vec3(i - j, i * j, 0.2 * i * j * (i + 1)), 1);
+	assert_int_equal(surface_check(&s, "corner", NULL), ST_OK);
+	int named = 0;
+	for (int degrees = 5; degrees < 60; degrees += 5) {
+		struct level_result x;
+		assert_int_equal(shape_trace(&s, LEVEL_ISOPHOTE, vec3(0, 0, 1), cosine(degrees),
+		                             1e-5, &x, NULL),
+		                 ST_OK);
+		for (size_t i = 0; i < x.n_undecided; i++) {
+			named++;
+			assert_int_equal(x.undecided[i].kind, LEVEL_SINGULAR);
+			assert_true(x.undecided[i].at[0] == 0 && x.undecided[i].at[1] == 0);
+		}
+		level_result_finish(&x);
+	}
+	assert_true(named > 0);
+	surface_finish(&s);
+}
+
+/* What lies on both ends of a seam is one mark. */
+static void test_seam(void **state)
+{
+	(void)state;
+	struct surface s = sphere();
+	struct level_result x;
+	const struct vec3 on = surface_point(&s, s.domain[0][0], 0.4 * s.domain[1][1]);
+	assert_int_equal(shape_trace(&s, LEVEL_PLANE, vec3_unit(on), 2.5, 1e-5, &x, NULL), ST_OK);
+	assert_int_equal(x.n_branches, 0);
+	assert_int_equal(x.n_undecided, 1);
+	assert_int_equal(x.undecided[0].kind, LEVEL_POINT);
+	assert_true(x.undecided[0].lo[0] < s.domain[0][1]);
+	assert_true(x.undecided[0].hi[0] > s.domain[0][1]);
+	level_result_finish(&x);
+	surface_finish(&s);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_touch),
-		cmocka_unit_test(test_no_area),
-		cmocka_unit_test(test_crossing),
+		cmocka_unit_test(test_touch),    cmocka_unit_test(test_no_area),
+		cmocka_unit_test(test_crossing), cmocka_unit_test(test_singular),
+		cmocka_unit_test(test_seam),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

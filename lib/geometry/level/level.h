@@ -96,24 +96,28 @@ struct level_branch {
 
 /*
  * What stays undecided, by what is certain round it. Points and crossings are small: a part in 10,000
- * of the surface, or below the tolerance. The branches that reach a crossing end in the same point
+ * of the surface, or below the tolerance; singular ones ten times that. The branches that reach a crossing end in the same point
  * there, the middle of its box, if they can within the tolerance; else at its border.
  */
 enum level_mark {
 	LEVEL_POINT,    /* no curve leaves it: a touch, or nothing */
 	LEVEL_CROSSING, /* curves end in it */
-	LEVEL_REGION,   /* larger: a plateau, a touch along a line, or places too near each other */
+	LEVEL_SINGULAR, /* small, and the surface has no normal at `at`: curves that lead there end in it */
+	LEVEL_REGION, /* larger: a plateau, a touch along a line, or places too near each other */
 	LEVEL_GRAZE, /* whether a curve touches the border here, or a line where the derivatives of f
 	                   jump, is undecided; its branches are as the computed f has them */
 	N_LEVEL_MARKS
 };
 
 struct level_box {
-	double lo[2], hi[2]; /* in u, v */
-	bool flat;           /* f is zero in it up to rounding */
+	double lo[2], hi[2]; /* in u, v; over a seam hi is beyond the upper end */
+	double at[2]; /* where its branches end if they can: the middle, or the singular point */
+	bool flat;    /* f is zero in it up to rounding */
 	enum level_mark kind;
 	int ends; /* of branches, in it: how many curves leave it */
 };
+
+extern const char *const level_mark_names[N_LEVEL_MARKS]; /* "crossing" */
 
 struct level_result {
 	struct level_branch *branches; /* owned */

@@ -144,10 +144,16 @@ static void spans_add_mark(const struct joint *j, size_t end, bool into, struct 
 	int mark = j->links[end].mark;
 	struct joint_end a;
 	double uv[2], p[3];
-	if (mark == 0 || j->marks[mark - 1].kind != LEVEL_CROSSING)
+	if (mark == 0 || (j->marks[mark - 1].kind != LEVEL_CROSSING &&
+	                  j->marks[mark - 1].kind != LEVEL_SINGULAR))
 		return;
 	joint_end_get(j, end, &a);
-	level_mark_middle(j->level->surface, &j->marks[mark - 1], uv, p);
+	memcpy(uv, j->marks[mark - 1].at, sizeof uv);
+	level_point_at(j->level->surface, uv, p);
+	/* over a seam it may be the other end's */
+	for (int d = 0; d < 2; d++)
+		if (fabs(uv[d] - a.uv[d]) > 0.5 * level_range(j->level->surface, d))
+			return;
 	struct piece x = { .error = 2 * distance(a.p, p),
 		           .error_uv = 2 * hypot(a.uv[0] - uv[0], a.uv[1] - uv[1]) };
 	if (x.error == 0 || x.error > j->level->tolerance || x.error_uv > j->level->tolerance_uv)

@@ -376,6 +376,12 @@ struct joint_end {
 void joint_end_get(const struct joint *j, size_t end, struct joint_end *out);
 void piece_reverse(struct piece *p);
 
+/* From the lower to the upper end of the surface's parameter. */
+static inline double level_range(const struct level_surface *s, int d)
+{
+	return s->net.breaks[d][s->net.spans[d]] - s->net.breaks[d][0];
+}
+
 /* Parameters of the surface from those of the patch. */
 void level_globalise(const struct level_surface *s, int patch, const double uv[2], double out[2]);
 
@@ -390,8 +396,7 @@ enum status level_branch_make(const struct joint *j, const size_t *entries, size
  * ST_RESOURCE. */
 enum status level_regions(struct joint *j, struct level_result *out);
 
-/* A mark's middle, in u, v and in space. */
-void level_mark_middle(const struct level_surface *s, const struct level_box *b, double uv[2],
-                       double p[3]);
+/* The point of the surface at u, v. */
+void level_point_at(const struct level_surface *s, const double uv[2], double p[3]);
 
 #endif

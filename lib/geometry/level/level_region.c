@@ -8,6 +8,14 @@
 /* Marks no larger than this part of the size are a point, if the tolerance is not larger. */
 static const double point_share = 1e-4;
 
+/* So much larger may one about a point without a normal be. */
+#define SINGULAR_TIMES 10
+
+const char *const level_mark_names[N_LEVEL_MARKS] = {
+	[LEVEL_POINT] = "point",   [LEVEL_CROSSING] = "crossing", [LEVEL_SINGULAR] = "singular",
+	[LEVEL_REGION] = "region", [LEVEL_GRAZE] = "graze",
+};
+
 static int box_compare(const void *x, const void *y)
 {
 	const struct level_box *a = x, *b = y;
@@ -90,7 +98,7 @@ static int patch_at(const struct level_surface *s, const double uv[2], double ou
 	return place[0] * s->net.spans[1] + place[1];
 }
 
-static void point_at(const struct level_surface *s, const double uv[2], double p[3])
+void level_point_at(const struct level_surface *s, const double uv[2], double p[3])
 {
 	double at[2], x[4], xu[4], xv[4];
 	int patch = patch_at(s, uv, at);
@@ -100,39 +108,64 @@ static void point_at(const struct level_surface *s, const double uv[2], double p
 		p[d] = x[d] / x[3];
 }
 
-void level_mark_middle(const struct level_surface *s, const struct level_box *b, double uv[2],
-                       double p[3])
+/* A place beyond a seam is one at the lower end. */
+static void into_domain(const struct level_surface *s, double uv[2])
 {
 	for (int d = 0; d < 2; d++)
-		uv[d] = 0.5 * (b->lo[d] + b->hi[d]);
-	point_at(s, uv, p);
+		if (uv[d] > s->net.breaks[d][s->net.spans[d]])
+			uv[d] = smaller(uv[d] - level_range(s, d),
+			                s->net.breaks[d][s->net.spans[d]]);
 }
 
 /* From one corner to the others, twice: a box so small is nearly flat. */
 static double box_size(const struct level_surface *s, const struct level_box *b)
 {
 	double p[3], q[3], most = 0;
-	point_at(s, b->lo, p);
+	level_point_at(s, b->lo, p);
 	for (int k = 1; k < 4; k++) {
-		const double uv[2] = { k & 1 ? b->hi[0] : b->lo[0], k & 2 ? b->hi[1] : b->lo[1] };
-		point_at(s, uv, q);
+		double uv[2] = { k & 1 ? b->hi[0] : b->lo[0], k & 2 ? b->hi[1] : b->lo[1] };
+		into_domain(s, uv);
+		level_point_at(s, uv, q);
 		most = larger(most, vec3_length(vec3_sub(vec3_of(p), vec3_of(q))));
 	}
 	return 2 * most;
 }
 
 /* The mark that holds u, v, counted from 1; 0: none. */
-static int mark_at(const struct level_result *x, const double uv[2], const double near[2])
+static int mark_at(const struct level_surface *s, const struct level_result *x, const double uv[2],
+                   const double near[2])
 {
 	for (size_t i = 0; i < x->n_undecided; i++) {
 		const struct level_box *b = &x->undecided[i];
 		bool in = b->kind != LEVEL_GRAZE;
 		for (int d = 0; in && d < 2; d++)
-			in = uv[d] >= b->lo[d] - near[d] && uv[d] <= b->hi[d] + near[d];
+			in = (uv[d] >= b->lo[d] - near[d] && uv[d] <= b->hi[d] + near[d]) ||
+			     uv[d] + level_range(s, d) <= b->hi[d] + near[d];
 		if (in)
 			return (int)i + 1;
 	}
 	return 0;
+}
+
+/* A corner of a patch in the box has no normal. */
+static bool singular_in(const struct level_surface *s, struct level_box *b, const double near[2])
+{
+	const int m = s->degree[0], n = s->degree[1];
+	for (size_t i = 0; s->normals && i < (size_t)s->net.spans[0] * s->net.spans[1]; i++)
+		for (int k = 0; k < 4; k++) {
+			const double corner[2] = { k / 2, k % 2 };
+			const double *c = s->normals + level_normals_size(s) * i +
+			                  (size_t)4 * ((k / 2 ? m : 0) * (n + 1) + (k % 2 ? n : 0));
+			double uv[2];
+			level_globalise(s, (int)i, corner, uv);
+			if (vec3_length(vec3_of(c)) > 3 * s->normal_error[i] ||
+			    uv[0] < b->lo[0] - near[0] || uv[0] > b->hi[0] + near[0] ||
+			    uv[1] < b->lo[1] - near[1] || uv[1] > b->hi[1] + near[1])
+				continue;
+			memcpy(b->at, uv, sizeof uv);
+			return true;
+		}
+	return false;
 }
 
 static void marks_name(struct joint *j, struct level_result *out, const double near[2])
@@ -145,18 +178,52 @@ static void marks_name(struct joint *j, struct level_result *out, const double n
 		if (l->kind != LINK_END)
 			continue;
 		joint_end_get(j, e, &x);
-		l->mark = mark_at(out, x.uv, near);
+		l->mark = mark_at(s, out, x.uv, near);
 		if (l->mark)
 			out->undecided[l->mark - 1].ends++;
 	}
 	for (size_t i = 0; i < out->n_undecided; i++) {
 		struct level_box *b = &out->undecided[i];
+		for (int d = 0; d < 2; d++)
+			b->at[d] = 0.5 * (b->lo[d] + b->hi[d]);
+		into_domain(s, b->at);
 		if (b->kind != LEVEL_GRAZE)
-			b->kind = box_size(s, b) > small ? LEVEL_REGION
-			          : b->ends > 0          ? LEVEL_CROSSING
+			b->kind =
+			        box_size(s, b) <= SINGULAR_TIMES * small && singular_in(s, b, near)
+			                ? LEVEL_SINGULAR
+			        : box_size(s, b) > small ? LEVEL_REGION
+			        : b->ends > 0            ? LEVEL_CROSSING
 			                                 : LEVEL_POINT;
 	}
 	j->marks = out->undecided;
+}
+
+/* Regions that meet over a seam are one, which goes on beyond the upper end. */
+static void seams_unite(const struct level_surface *s, struct level_result *x, const double near[2])
+{
+	for (int d = 0; d < 2; d++) {
+		const double lo = s->net.breaks[d][0], hi = s->net.breaks[d][s->net.spans[d]];
+		for (size_t i = 0; s->net.closed[d] && i < x->n_undecided; i++) {
+			struct level_box *a = &x->undecided[i];
+			if (a->hi[d] < hi - near[d] || a->hi[d] > hi + near[d] ||
+			    a->lo[d] <= lo + near[d])
+				continue;
+			for (size_t k = 0; k < x->n_undecided; k++) {
+				struct level_box b = x->undecided[k];
+				if (k == i || b.lo[d] > lo + near[d] || b.hi[d] >= hi - near[d] ||
+				    a->lo[1 - d] > b.hi[1 - d] + near[1 - d] ||
+				    b.lo[1 - d] > a->hi[1 - d] + near[1 - d])
+					continue;
+				b.lo[d] += hi - lo;
+				b.hi[d] += hi - lo;
+				region_add(a, &b);
+				memmove(&x->undecided[k], &x->undecided[k + 1],
+				        sizeof *x->undecided * (--x->n_undecided - k));
+				i -= k < i;
+				break;
+			}
+		}
+	}
 }
 
 enum status level_regions(struct joint *j, struct level_result *out)
@@ -189,6 +256,7 @@ enum status level_regions(struct joint *j, struct level_result *out)
 		}
 	}
 	free(parent);
+	seams_unite(j->level->surface, out, near);
 	marks_name(j, out, near);
 	return ST_OK;
 }
