@@ -151,24 +151,27 @@ static enum status slurm_start(void *data, struct Stats *stats, const struct rep
 	struct slurm *s = data;
 	struct slurm_job *j = calloc(1, sizeof *j);
 	struct stat log;
-	if (j)
+	enum status st = ST_RESOURCE;
+	if (j) {
 		j->name = name_of(s, stats->id);
-	if (!j || !j->name) {
-		free(j);
-		return report_error(r, ST_RESOURCE, "out of memory");
+		j->log = shard_path(s->project, "logs", shard_job(stats->id), ".log");
 	}
-	enum status st = s->below->start(s->below->data, stats, r);
-	if (st == ST_OK && (j->log = strdup(stats->log)) == NULL) {
-		s->below->forget(s->below->data, stats->id);
-		st = report_error(r, ST_RESOURCE, "out of memory");
+	if (j && j->name && j->log) {
+		/* before it starts: srun may have said its last words when start returns */
+		j->log_from = stat(j->log, &log) ? 0 : log.st_size;
+		st = s->below->start(s->below->data, stats, r);
+	} else {
+		report_error(r, st, "out of memory");
 	}
 	if (st != ST_OK) {
-		free(j->name);
+		if (j) {
+			free(j->name);
+			free(j->log);
+		}
 		free(j);
 		return st;
 	}
 	j->id = stats->id;
-	j->log_from = stat(j->log, &log) ? 0 : log.st_size;
 	j->next = s->jobs;
 	s->jobs = j;
 	slurm_look_soon(s);

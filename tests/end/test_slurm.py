@@ -257,8 +257,9 @@ def test_shutdown_leaves_nothing_in_slurm(project):
 
 def test_what_slurm_refuses_says_why(project):
     slurm = with_cluster(project)
+    # srun may end before its start has been seen, so it is asked several times
     for option, value, why in (("--partition", "nope", "Invalid partition"),
-                               ("--time", "nope", "--time")):
+                               *(("--time", "nope", "--time"), ) * 8):
         (job,) = project.json("batten", "run", "shading", SPHERE, "--size", "32x32", "--on",
                               "slurm", option, value, status=1)["jobs"]
         assert job["state"] == "failed" and why in job["reason"], job
