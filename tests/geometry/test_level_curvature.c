@@ -133,7 +133,7 @@ static const struct {
 	double part[2]; /* between the least and the largest value on the grid */
 } counted[] = {
 	{ "waves", wavy10, { 0.31, 0.65 } },
-	{ "bent", bent, { 0.46, 0.77 } },
+	{ "bent", bent, { 0.55, 0.77 } },
 	{ "weighted", weighted, { 0.4, 0.8 } },
 };
 static const enum quantity traced[] = { QUANTITY_GAUSSIAN, QUANTITY_MEAN,     QUANTITY_KMAX,

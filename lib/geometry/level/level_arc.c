@@ -307,6 +307,31 @@ static void tiny_prove(const struct follower *w, const struct station *a, const 
 	proof_improve(best, &proof);
 }
 
+/*
+ * Without a look at f: between its ends the curve is a graph over one direction, in the cell in the other, and
+ * the cubics are in their control points' hull. In a patch that is a sliver that is enough.
+ */
+static struct proof rough_proof(const struct follower *w, const struct station *a,
+                                const struct station *b, double size, double length)
+{
+	const struct prover *p = &w->prover;
+	const double reach = 1.1 * length / 3; /* lengths are corrected by a tenth at most */
+	double space = size + 3 * reach, extent[2];
+	for (int d = 0; d < 2; d++) {
+		double lo = smaller(a->uv[d], b->uv[d]), hi = larger(a->uv[d], b->uv[d]);
+		if (d != w->along) {
+			lo = w->box->lo[d];
+			hi = w->box->hi[d];
+		}
+		extent[d] = hi - lo + reach * (fabs(a->duv[d]) + fabs(b->duv[d]));
+		space += p->shape->first[d] * extent[d];
+	}
+	return (struct proof){ smaller(2 * p->diameter, space),
+		               smaller(2 * p->diameter_uv,
+		                       hypot(p->width[0] * extent[0], p->width[1] * extent[1])),
+		               { 0, 0 } };
+}
+
 static void fit(const struct follower *w, const struct station *a, const struct station *b,
                 int depth, double expected);
 
@@ -373,9 +398,8 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 	/* a circle's arc of that chord and turn: chord / cos^2 (angle / 4) */
 	double first = size * 2 / (1 + sqrt(larger(0, (1 + turn) / 2)));
 	struct lengths l = { first, first };
-	/* ends, curve and cubics are in the cell or near it */
 	struct proof_middle mid;
-	struct proof proof, best = { 2 * w->prover.diameter, 2 * w->prover.diameter_uv, { 0, 0 } };
+	struct proof proof, best = rough_proof(w, a, b, size, first);
 	struct piece x;
 	double used = 0;
 	bool hopeless = expected > HOPELESS, proved = true;
