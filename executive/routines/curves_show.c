@@ -1,15 +1,12 @@
 /* curves_show.c - how curves (and surfaces, where the leaf is the same) are drawn. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "file.h"
-#include "on_surface.h"
+#include "curve_samples.h"
 #include "path.h"
 #include "private.h"
-#include "text.h"
 
-enum { PICTURE_WIDTH = 1280, PICTURE_HEIGHT = 800 };
+enum { PICTURE_WIDTH = 1280, PICTURE_HEIGHT = 800, GRAPH_SAMPLES = 801 };
 
 /* The current thing of the leaf's kind, and how it is drawn. */
 static const struct Ful *current(const struct act *a, struct display *d)
@@ -107,69 +104,26 @@ enum status show_samples(struct act *a, const struct arguments *given)
 	return world_set_display(a->world, f->id, &d);
 }
 
-/* One row of the table: what the curve is at t. */
-static void add_sample(struct text *t, const struct Ful *f, const struct surface *on, double at,
-                       double length)
+/* The curve's values as a table or a graph, by the extension of the file. */
+static enum status save_values(const struct act *a, const struct Ful *f, int quills,
+                               const char *name)
 {
-	struct curve_shape shape;
-	struct on_surface_shape with = { .normal_curvature = NAN, .geodesic_curvature = NAN };
-	const struct on_surface c = { &f->entity.curve, on };
-
-	if (on) {
-		on_surface_shape(&c, at, &with);
-		shape = with.space;
-	} else
-		curve_shape(&f->entity.curve, at, &shape);
-	const double values[] = { at,
-		                  length,
-		                  shape.point.x,
-		                  shape.point.y,
-		                  shape.point.z,
-		                  shape.curvature,
-		                  shape.torsion,
-		                  with.normal_curvature,
-		                  with.geodesic_curvature };
-	const size_t n = on ? 9 : 7;
-	for (size_t k = 0; k < n; k++) {
-		text_add(t, k ? "," : "");
-		if (values[k] == values[k])
-			text_add_number(t, values[k]);
-	}
-	text_add(t, "\n");
-}
-
-static struct vec3 point_at(const struct Ful *f, const struct surface *on, double at)
-{
-	const struct vec3 p = curve_point(&f->entity.curve, at);
-
-	return on ? surface_point(on, p.x, p.y) : p;
-}
-
-/* Curvature and torsion along the curve as a table; lengths by chords between the samples. */
-static enum status save_table(const struct act *a, const struct Ful *f, int samples,
-                              const char *name)
-{
-	const struct Ful *base = f->on ? world_by_id(a->world, f->on) : NULL;
-	const struct surface *on = base ? &base->entity.geometry : NULL;
-	const double *domain = f->entity.curve.domain;
-	struct text t = { 0 };
-	double length = 0;
-	struct vec3 before = point_at(f, on, domain[0]);
+	const bool table = !strcmp(path_extension(name), ".csv");
+	struct curve_samples s;
 	char *path = act_path(a, name);
+	enum status st = path ? curve_samples_take(&s, a->world, f, table ? quills : GRAPH_SAMPLES)
+	                      : ST_RESOURCE;
 
-	text_add(&t, "t,length,x,y,z,curvature,torsion");
-	text_add(&t, on ? ",normal_curvature,geodesic_curvature\n" : "\n");
-	for (int k = 0; k < samples; k++) {
-		const double at = domain[0] + (domain[1] - domain[0]) * k / (samples - 1);
-		const struct vec3 p = point_at(f, on, at);
-		length += vec3_length(vec3_sub(p, before));
-		before = p;
-		add_sample(&t, f, on, at, length);
+	if (st != ST_OK) {
+		free(path);
+		return act_memory(a);
 	}
-	enum status st = path && !t.failed ? file_write(path, t.s, t.n, &a->report) : act_memory(a);
+	st = table ? curve_samples_write(&s, path, &a->report)
+	           : curve_graph_write(&s, f->name, f->unit, path, &a->report);
 	if (st == ST_OK)
-		act_say(a, "%d samples in %s", samples, path_file_name(path));
-	text_finish(&t);
+		act_say(a, "smallest radius %.6g, in %s", 1 / curve_samples_sharpest(&s),
+		        path_file_name(path));
+	curve_samples_finish(&s);
 	free(path);
 	return st;
 }
@@ -186,7 +140,7 @@ enum status show_porcupine(struct act *a, const struct arguments *given)
 	d.porcupine = scale > 0;
 	d.quill = scale > 0 ? scale : d.quill;
 	enum status st = world_set_display(a->world, f->id, &d);
-	return st == ST_OK && save ? save_table(a, f, d.quills, save) : st;
+	return st == ST_OK && save ? save_values(a, f, d.quills, save) : st;
 }
 
 static enum status turn(struct act *a, bool on)

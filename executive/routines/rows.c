@@ -58,8 +58,8 @@ const struct argument_row rows_samples[] = { WHOLE("samples", "Quills", "100", 2
 const struct argument_row rows_view[] = { KIND(VIEW, "view", "View", "three-quarter", "three-quarter, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees; then :perspective or :orthographic, and @ANGLE"), END };
 const struct argument_row rows_porcupine[] = {
 	REAL("scale", "Scale", "0.2", 0, 100, NULL, "length of the longest quill, as a share of the curve's size; 0: off"),
-	{ .name = "save", .type = ARGUMENT_OUTPUT, .prompt = "Graph", .pattern = "*.csv", .optional = true,
-	  .help = "file for the values along the curve: parameter, length, point, curvature, torsion" },
+	{ .name = "save", .type = ARGUMENT_OUTPUT, .prompt = "Graph", .pattern = "*.svg *.pdf *.csv", .optional = true,
+	  .help = "file for curvature and torsion along the curve: .svg or .pdf a graph, .csv a table" },
 	END };
 const struct argument_row rows_surface_resolution[] = {
 	WHOLE("lines_u", "Lines in u", "7", 0, 10000, "isoparametric lines between the borders, u constant"),

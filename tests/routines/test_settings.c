@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "acting.h"
+#include "file.h"
 #include "path.h"
 
 /* Default of an argument as it would be asked for now; "-": none. */
@@ -167,6 +168,46 @@ static void test_table(void **state)
 	free(path);
 }
 
+static char *read_file(struct acting *a, const char *name, size_t *n)
+{
+	char *path = place_path(&a->place, name), *bytes;
+
+	assert_int_equal(file_read(path, 1 << 24, &bytes, n, NULL), ST_OK);
+	free(path);
+	return bytes;
+}
+
+/* Graphs of a curve in space and of one on a surface: the same bytes each time. */
+static void test_graph(void **state)
+{
+	struct acting *a = *state;
+	static const struct {
+		const char *code, *one, *two, *begins;
+	} cases[] = {
+		{ "V54", "a.svg", "b.svg", "<?xml" },
+		{ "V54", "a.pdf", "b.pdf", "%PDF" },
+		{ "V47", "c.svg", "d.svg", "<?xml" },
+	};
+
+	for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+		char line[64];
+		size_t n, m;
+		if (!strcmp(cases[k].code, "V47"))
+			acting_does(a, "V25 points=0,0,0;1,1,0;2,0,0;3,1,1 name=wire");
+		snprintf(line, sizeof line, "%s save=%s", cases[k].code, cases[k].one);
+		acting_does(a, line);
+		snprintf(line, sizeof line, "%s save=%s", cases[k].code, cases[k].two);
+		acting_does(a, line);
+		char *one = read_file(a, cases[k].one, &n), *two = read_file(a, cases[k].two, &m);
+		assert_true(n == m && n > 2000 && !memcmp(one, two, n));
+		assert_memory_equal(one, cases[k].begins, strlen(cases[k].begins));
+		free(one);
+		free(two);
+	}
+	acting_fails(a, "V47 save=a.bmp", ST_PARAMETER, "a graph is .svg or .pdf");
+	acting_fails(a, "V47 save=no/such/a.svg", ST_INPUT, "no/such");
+}
+
 /* Results are read from files, and refused where they are something else. */
 static void test_results(void **state)
 {
@@ -226,6 +267,7 @@ int main(void)
 		cmocka_unit_test_setup_teardown(test_display, open_both, acting_teardown),
 		cmocka_unit_test_setup_teardown(test_views, open_both, acting_teardown),
 		cmocka_unit_test_setup_teardown(test_table, open_both, acting_teardown),
+		cmocka_unit_test_setup_teardown(test_graph, open_both, acting_teardown),
 		cmocka_unit_test_setup_teardown(test_results, open_both, acting_teardown),
 		cmocka_unit_test_setup_teardown(test_job_ended, open_both, acting_teardown),
 	};
