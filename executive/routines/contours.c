@@ -7,50 +7,6 @@
 #include "private.h"
 #include "text.h"
 
-enum { SAMPLES = 16 };
-
-/* The speed of the slower parameter, on average over the current surface: what a step in u, v is in space. */
-static double slow_speed(const struct world *w)
-{
-	const struct Ful *f = world_current(w, false);
-	const struct surface *s = f ? &f->entity.geometry : NULL;
-	double sum = 0;
-
-	for (int i = 0; s && i < SAMPLES * SAMPLES; i++) {
-		struct vec3 p, du, dv;
-		const double *u = s->domain[0], *v = s->domain[1];
-		surface_tangents(s, u[0] + (u[1] - u[0]) * (i / SAMPLES + 0.5) / SAMPLES,
-		                 v[0] + (v[1] - v[0]) * (i % SAMPLES + 0.5) / SAMPLES, &p, &du,
-		                 &dv);
-		sum += fmin(vec3_length(du), vec3_length(dv));
-	}
-	return sum / (SAMPLES * SAMPLES);
-}
-
-static char *number_text(double x)
-{
-	char out[NUMBER_SIZE];
-
-	if (!(x > 0) && !(x <= 0))
-		return NULL;
-	number_write(out, x);
-	return strdup(out);
-}
-
-/* The finer of both accuracies that were set. */
-static char *tolerance_of(const struct world *w, const char *what)
-{
-	const char *space = world_default(w, what, "tolerance"),
-	           *uv = world_default(w, what, "tolerance_uv");
-	double x = 0, t = 0;
-
-	if (uv && number_parse(uv, &x))
-		x *= slow_speed(w);
-	if (space && number_parse(space, &t) && (!(x > 0) || t < x))
-		x = t;
-	return x > 0 ? number_text(x) : NULL;
-}
-
 /* Axis of a family, 0 x to 2 z; -1: none. */
 static int family_axis(const struct world *w)
 {
@@ -134,10 +90,22 @@ static char *cylinder_default(const struct world *w, const char *parameter)
 	return NULL;
 }
 
+/* The accuracies, in space and in u, v; both hold. */
+static char *accuracy_default(const struct world *w, const char *what, const char *setting)
+{
+	const char *value = world_default(w, what, setting);
+
+	return value ? strdup(value) : NULL;
+}
+
 char *contours_default(const struct world *w, bool cylinders, const char *parameter)
 {
+	const char *what = cylinders ? "cylinders" : "planes";
+
 	if (!strcmp(parameter, "tolerance"))
-		return tolerance_of(w, cylinders ? "cylinders" : "planes");
+		return accuracy_default(w, what, "tolerance");
+	if (!strcmp(parameter, "tolerance-uv"))
+		return accuracy_default(w, what, "tolerance_uv");
 	return cylinders ? cylinder_default(w, parameter) : plane_default(w, parameter);
 }
 

@@ -78,7 +78,7 @@ const struct argument_row rows_plane_start[] = {
 	  .optional = true, .stores = FAMILY("family"), .help = "planes of a ship, instead of the normal" },
 	END };
 const struct argument_row rows_plane_distance[] = { SET(NUMBER, "distance", "Distance", 1e-300, 1e300, "file", FAMILY("distance"), "from one plane to the next"), END };
-const struct argument_row rows_plane_tolerance_uv[] = { SET(NUMBER, "tolerance_uv", "Accuracy in u, v", 1e-300, 1e300, NULL, FAMILY("tolerance_uv"), "in the surface's parameters; taken to space by the slowest of them on the surface"), END };
+const struct argument_row rows_plane_tolerance_uv[] = { SET(NUMBER, "tolerance_uv", "Accuracy in u, v", 1e-300, 1e300, NULL, FAMILY("tolerance_uv"), "largest distance from the exact curve in the surface's parameters, too"), END };
 const struct argument_row rows_plane_tolerance[] = { SET(NUMBER, "tolerance", "Accuracy", 1e-300, 1e300, "file", FAMILY("tolerance"), "largest distance from the exact curve"), END };
 #undef FAMILY
 #define FAMILY(n) "cylinders." n
@@ -89,7 +89,7 @@ const struct argument_row rows_cylinder_start[] = {
 	SET(NUMBER, "radius", "Radius", 1e-300, 1e300, "file", FAMILY("radius"), "first radius"),
 	END };
 const struct argument_row rows_cylinder_distance[] = { SET(NUMBER, "distance", "Distance", 1e-300, 1e300, "file", FAMILY("distance"), "from one radius to the next"), END };
-const struct argument_row rows_cylinder_tolerance_uv[] = { SET(NUMBER, "tolerance_uv", "Accuracy in u, v", 1e-300, 1e300, NULL, FAMILY("tolerance_uv"), "in the surface's parameters; taken to space by the slowest of them on the surface"), END };
+const struct argument_row rows_cylinder_tolerance_uv[] = { SET(NUMBER, "tolerance_uv", "Accuracy in u, v", 1e-300, 1e300, NULL, FAMILY("tolerance_uv"), "largest distance from the exact curve in the surface's parameters, too"), END };
 const struct argument_row rows_cylinder_tolerance[] = { SET(NUMBER, "tolerance", "Accuracy", 1e-300, 1e300, "file", FAMILY("tolerance"), "largest distance from the exact curve"), END };
 #undef FAMILY
 

@@ -54,9 +54,12 @@ def test_missing_map_is_computed(project):
 
 def test_contours_and_reflection(project):
     start(project)
-    script(project, "V175 file=wigley.base", "V60 count=3", "V61 family=waterlines", "V168", "V169",
+    script(project, "V175 file=wigley.base", "V60 count=3", "V61 family=waterlines", "V63 tolerance_uv=1e-5",
+           "V64 tolerance=0.001", "V168", "V169",
            "V65 count=2", "V66 axis=1,0,0 radius=1", "V67 distance=0.5", "V170", "V171",
            "V92 count=3", "V94", "V95")
+    set_ = [j["parameters"] for j in project.jobs().values() if j["worker"] == "contours"][0]
+    assert (set_["tolerance"], set_["tolerance-uv"], set_["waterlines"]) == ("0.001", "1e-5", "3"), set_
     levels = [j["outputs"][0]["figures"]["levels"] for j in project.jobs().values()
               if j["worker"] == "contours"]
     assert [l["kind"] for l in levels[0]] == ["waterline"] * 3, levels
