@@ -15,4 +15,6 @@ cd "$work"
 "$build/workers/batten-isophotes" "$hull#2" --view $view --svg
 "$build/workers/batten-contours" "$hull" --stations 0:142:21 --waterlines 1:13:13 --buttocks 5 --draught 6.2 --svg
 "$build/workers/batten-reflection" "$hull#2" --kind highlight --view $view --svg
+"$build/workers/batten-isocurvature" "$hull#2" --quantity H --from -0.3 --to 0.3 --count 13 --view $view --svg
+cp hull.isocurvature.svg "$out"
 cp hull.shade.png hull.trace.png hull.view.png hull.isophote.svg hull.contour.svg hull.reflect.svg "$out"
