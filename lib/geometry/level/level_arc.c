@@ -286,7 +286,7 @@ static void tiny_prove(const struct follower *w, const struct station *a, const 
 	struct piece x = { .error = 0 };
 	for (int d = 0; d < 2; d++) {
 		uv[d] = 0.5 * (a->uv[d] + b->uv[d]);
-		size_uv = hypot(size_uv, w->prover.width[d] * (b->uv[d] - a->uv[d]));
+		size_uv = length2(size_uv, w->prover.width[d] * (b->uv[d] - a->uv[d]));
 		for (int e = 0; e < 2; e++) {
 			x.uv[e][d] = e ? b->uv[d] : a->uv[d];
 			x.duv[e][d] = b->uv[d] - a->uv[d];
@@ -328,7 +328,7 @@ static struct proof rough_proof(const struct follower *w, const struct station *
 	}
 	return (struct proof){ smaller(2 * p->diameter, space),
 		               smaller(2 * p->diameter_uv,
-		                       hypot(p->width[0] * extent[0], p->width[1] * extent[1])),
+		                       length2(p->width[0] * extent[0], p->width[1] * extent[1])),
 		               { 0, 0 } };
 }
 

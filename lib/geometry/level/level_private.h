@@ -7,6 +7,7 @@
 #ifndef BATTEN_LEVEL_PRIVATE_H
 #define BATTEN_LEVEL_PRIVATE_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "level.h"
@@ -45,7 +46,7 @@ struct patch_shape {
 
 /* Chebyshev's nodes, Hermite's polynomials there (four of four nodes), and the cosines that take values in the nodes to
  * coefficients. */
-enum { PROOF_NODES = 16 };
+enum { PROOF_NODES = 12 };
 struct proof_tables {
 	double t[PROOF_NODES], h[PROOF_NODES / 4][4][4], cosine[PROOF_NODES][PROOF_NODES / 2];
 };
@@ -118,6 +119,12 @@ static inline double larger(double a, double b)
 static inline double smaller(double a, double b)
 {
 	return a < b ? a : b;
+}
+
+/* Where hypot's care for overflow costs too much. */
+static inline double length2(double x, double y)
+{
+	return sqrt(x * x + y * y);
 }
 
 static inline struct vec3 vec3_of(const double p[3])

@@ -153,7 +153,7 @@ void level_prover_init(struct prover *p, const struct tracer *t, const struct ce
 		p->width[d] = b[1] - b[0];
 	}
 	p->diameter = p->shape->first[0] * hu + p->shape->first[1] * hv;
-	p->diameter_uv = hypot(p->width[0] * hu, p->width[1] * hv);
+	p->diameter_uv = length2(p->width[0] * hu, p->width[1] * hv);
 	p->error = t->bound.error + (degree[0] + degree[1] + 8) * 4 * UNIT_ROUNDOFF * t->bound.size;
 }
 
@@ -389,7 +389,7 @@ bool level_prove(const struct prover *p, const struct piece *x, const struct pro
 	if (!(bent < 0.5))
 		return false;
 	double step = (mid->step + turned) / (1 - bent);
-	double step_uv = hypot(w[0] * p->width[0], w[1] * p->width[1]);
+	double step_uv = length2(w[0] * p->width[0], w[1] * p->width[1]);
 	*out = (struct proof){ e + f * step,
 		               f * step_uv / (1 - bent),
 		               { p->error * mid->step, p->error * step_uv } };
