@@ -1,6 +1,8 @@
 /* view_place.c - a world with shapes, and pictures of it in memory. */
 #include "view_place.h"
 
+#include <dlfcn.h>
+#include <link.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,8 +34,19 @@ bool place_open(struct report_store *why)
 	return true;
 }
 
+/* What a driver leaves behind can be told from our own only while it is loaded. */
+static int keep_loaded(struct dl_phdr_info *library, size_t size, void *data)
+{
+	(void)size;
+	(void)data;
+	if (*library->dlpi_name)
+		dlopen(library->dlpi_name, RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+	return 0;
+}
+
 void place_close(void)
 {
+	dl_iterate_phdr(keep_loaded, NULL);
 	glDeleteFramebuffers(1, &frame);
 	glDeleteRenderbuffers(1, &buffer);
 	view_destroy(the_view);
