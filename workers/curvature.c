@@ -29,7 +29,7 @@ struct state {
 	struct curvature_view *view; /* NULL where none is asked for */
 };
 
-/* What stands before the packed tile in a unit of the map. */
+/* What stands behind the packed tile in a unit of the map. */
 struct extremes {
 	double lo[N_QUANTITIES], hi[N_QUANTITIES]; /* lo > hi: no value */
 	double lo_uv[N_QUANTITIES][2], hi_uv[N_QUANTITIES][2];
@@ -235,8 +235,8 @@ static enum status map_tile(const struct state *s, size_t tile, struct text *out
 		if (s->trim)
 			trim_tile(&e, s, x, first, width, height, channels);
 		take_tile(&e, s, x, first, width, height, channels, planes);
-		text_add_bytes(out, &e, sizeof e);
 		st = exr_pack(&s->image, tile, (const float *const *)planes, out);
+		text_add_bytes(out, &e, sizeof e);
 	}
 	free(values);
 	free(pixels);
@@ -280,7 +280,7 @@ static enum status state_figures(struct work *w)
 			return st;
 		if (n < sizeof e)
 			return report_error(&w->report, ST_INTERNAL, "unit %zu is too short", i);
-		memcpy(&e, bytes, sizeof e);
+		memcpy(&e, bytes + n - sizeof e, sizeof e);
 		for (int q = 0; q < N_QUANTITIES; q++)
 			extremes_add(&all, q, e.lo[q], e.lo_uv[q], e.hi[q], e.hi_uv[q]);
 		all.undefined += e.undefined;
@@ -301,10 +301,8 @@ static enum status state_figures(struct work *w)
 static enum status give_tile(void *data, size_t i, const char **bytes, size_t *n)
 {
 	enum status st = work_get(data, i, bytes, n);
-	if (st == ST_OK) {
-		*bytes += sizeof(struct extremes);
+	if (st == ST_OK)
 		*n -= sizeof(struct extremes);
-	}
 	return st;
 }
 
@@ -348,7 +346,7 @@ static enum status curvature_finish(struct work *w)
 const struct worker worker = {
 	.name = "curvature",
 	.title = "curvature map",
-	.version = 2,
+	.version = 3,
 	.help = "Gaussian, mean, absolute, principal and normal curvatures of a surface on a grid of its "
 	        "parameters: image x is u, image y is v with v upward, both ends of the domain "
 	        "included. With --view also as seen from a camera.",

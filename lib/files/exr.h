@@ -46,6 +46,13 @@ void exr_tile_window(const struct exr_image *im, size_t i, int *x, int *y, int *
 enum status exr_pack(const struct exr_image *im, size_t i, const float *const *planes,
                      struct text *out);
 
+/*
+ * The inverse: planes[c] receives tile i's w x h values of channel c. What stands behind the packed
+ * tile in its n bytes is left alone. Thread: any. Errors: ST_INPUT (no such tile), ST_RESOURCE.
+ */
+enum status exr_unpack(const struct exr_image *im, size_t i, const char *bytes, size_t n,
+                       float *const *planes);
+
 /* Give tile i's packed bytes, valid until the next call. */
 typedef enum status exr_source(void *data, size_t i, const char **bytes, size_t *n);
 

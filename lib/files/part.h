@@ -50,6 +50,24 @@ void part_remove(struct part *p);
  */
 enum status part_merge(struct part *into, const char *path, const struct report *r);
 
+/* A part file as another process has written it so far. */
+struct part_glance {
+	char *bytes;       /* owned; the whole file */
+	const char *key;   /* in bytes; key_length, not ended by a zero */
+	size_t key_length; /* bytes */
+	size_t n_units;
+	struct part_found {
+		size_t unit, n;
+		const char *bytes; /* in bytes above */
+	} * found;                 /* owned; in the order they came */
+	size_t n;
+};
+
+/* Read what there is, whole records only; the writer is not hindered.
+ * Errors: ST_INPUT (missing, no part file), ST_RESOURCE. */
+enum status part_look(struct part_glance *out, const char *path, const struct report *r);
+void part_glance_finish(struct part_glance *g); /* a zeroed one is fine */
+
 /* Take away the file at `path` if it is a part file that nobody uses. */
 void part_discard(const char *path);
 
