@@ -77,8 +77,8 @@ static void sphere_is_lit_as_by_formula(void **state)
 		                    cos(50 * M_PI / 180) };
 	const struct vec3 sky = vec3_unit(vec3_add(s.camera.up, vec3(0, 0, 1)));
 	const double facing = 0.72 / sqrt(0.72 * 0.72 + 0.62 * 0.62 + 0.5 * 0.5);
-	const double expected = 0.3 * (0.7 + 0.3 * vec3_dot(n, sky)) + 0.3 * facing +
-	                        0.55 * fmax(vec3_dot(n, light), 0);
+	const double expected = 0.3 * (0.7 + 0.3 * vec3_dot(n, sky)) + 0.4 * facing +
+	                        0.5 * fmax(vec3_dot(n, light), 0);
 	const unsigned c = at(SIDE / 2.0, SIDE / 2.0);
 	static const unsigned base[3] = { 0xC3, 0xCC, 0xD4 };
 	for (int k = 0; k < 3; k++) {

@@ -165,6 +165,29 @@ static void add_thing(struct lines *l, const struct Ful *f)
 	}
 }
 
+/* Every third: the multiples of three steps where values are multiples of a step. */
+static bool is_strong(double value, int group, double step)
+{
+	const double k = step > 0 ? value / step : NAN;
+	const bool even = fabs(k - round(k)) < 1e-6;
+	return (even ? lrint(k) : group) % 3 == 0;
+}
+
+/* From the first value to the next; 0: there is one only. */
+static double step_of(const struct model *m)
+{
+	double first = NAN, value;
+	for (int i = 0; i < m->n; i++) {
+		if (!result_value(&m->entities[i], &value))
+			continue;
+		if (isnan(first))
+			first = value;
+		else if (value != first)
+			return value - first;
+	}
+	return 0;
+}
+
 /* Lines of a result file: every third value stronger, with its label on its longest line. */
 static void add_result(struct lines *l, const char *file, const struct report *r)
 {
@@ -176,6 +199,7 @@ static void add_result(struct lines *l, const char *file, const struct report *r
 	if (l->status != ST_OK)
 		return;
 	l->n_models++;
+	const double step = step_of(m);
 	double last = NAN;
 	int group = -1;
 	for (int i = 0; i < m->n && l->status == ST_OK; i++) {
@@ -188,7 +212,7 @@ static void add_result(struct lines *l, const char *file, const struct report *r
 		const bool first = !(value == last);
 		group += first;
 		last = value;
-		const bool strong = group % 3 == 0;
+		const bool strong = is_strong(value, group, step);
 		char *label = NULL, number[TICK_TEXT];
 		number_for_reader(number, value, 4);
 		if (name && first && strong &&

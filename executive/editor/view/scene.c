@@ -13,7 +13,7 @@ static const double coarse_chord = 1e-3; /* of the scene's size */
 static const double cut_seconds = 0.06;  /* a drawing may spend on triangles */
 
 /* Shading as in the shading worker's pictures. */
-static const double ambient = 0.3, diffuse = 0.55, highlight = 0.12, sharpness = 40;
+static const double ambient = 0.3, diffuse = 0.5, highlight = 0.12, sharpness = 40;
 static const struct rgb plain_surface = { 0xC3 / 255.0, 0xCC / 255.0, 0xD4 / 255.0 };
 
 /* Lines on a surface stand before it by this many px. */

@@ -87,7 +87,7 @@ static const char surface_fragment[] =
         "		return;\n"
         "	}\n"
         "	float scattered = strength.x * (0.7 + 0.3 * dot(n, sky)) * (0.75 + 0.25 * facing);\n"
-        "	scattered += 0.3 * max(dot(n, fill), 0.0);\n"
+        "	scattered += 0.4 * max(dot(n, fill), 0.0);\n"
         "	float slope = dot(n, light), shine = 0.0;\n"
         "	if (slope > 0.0) {\n"
         "		float half_way = max(dot(n, normalize(light + to_eye)), 0.0);\n"
