@@ -37,6 +37,7 @@ static void tile_comes_back(bool noise, size_t tile)
 	static float in[CHANNELS][TILE * TILE], out[CHANNELS][TILE * TILE];
 	const float *planes[CHANNELS] = { in[0], in[1], in[2] };
 	float *back[CHANNELS] = { out[0], out[1], out[2] };
+	static const char figures[] = "\1\2\3\4 figures of the tile";
 	struct text bytes = { .s = NULL };
 	int x, y, w, h;
 	exr_tile_window(&image, tile, &x, &y, &w, &h);
@@ -46,7 +47,7 @@ static void tile_comes_back(bool noise, size_t tile)
 	assert_int_equal(exr_pack(&image, tile, planes, &bytes), ST_OK);
 	const size_t packed = bytes.n;
 	/* as workers do, figures stand behind */
-	text_add_bytes(&bytes, "\1\2\3\4 figures of the tile", 27);
+	text_add_bytes(&bytes, figures, sizeof figures);
 	assert_false(bytes.failed);
 	assert_int_equal(exr_unpack(&image, tile, bytes.s, bytes.n, back), ST_OK);
 	for (int c = 0; c < CHANNELS; c++)
