@@ -253,10 +253,10 @@ static enum status say_nothing_read(const struct iges *g)
 	                    g->name, s->first_de, s->type, s->reason);
 }
 
-enum status iges_parse(struct model *m, const char *bytes, size_t n, const char *name,
-                       const struct progress *p, const struct report *r)
+static enum status parse(struct model *m, const struct iges_bytes *bytes, const char *name,
+                         const struct progress *p, const struct report *r)
 {
-	struct iges g = { .bytes = bytes, .n = n, .name = name, .m = m, .progress = p, .r = r };
+	struct iges g = { .bytes = *bytes, .name = name, .m = m, .progress = p, .r = r };
 	report_store_init(&g.store);
 	model_init(&g.more);
 	enum status st = iges_index(&g);
@@ -265,6 +265,10 @@ enum status iges_parse(struct model *m, const char *bytes, size_t n, const char 
 		if (st == ST_RESOURCE)
 			report_error(r, st, "cannot read '%s': no memory", name);
 	}
+	if (g.bytes.failed && st != ST_CANCELLED)
+		st = report_error(r, ST_RESOURCE,
+		                  "cannot read '%s': its disk or the memory gave out; try again",
+		                  name);
 	if (st == ST_OK && m->n == 0)
 		st = say_nothing_read(&g);
 	if (st == ST_OK)
@@ -280,5 +284,18 @@ enum status iges_parse(struct model *m, const char *bytes, size_t n, const char 
 	free(g.bounds);
 	iges_finish_groups(&g);
 	free(g.edges.curves);
+	iges_bytes_finish(&g.bytes);
 	return st;
+}
+
+enum status iges_parse(struct model *m, const char *bytes, size_t n, const char *name,
+                       const struct progress *p, const struct report *r)
+{
+	return parse(m, &(struct iges_bytes){ .all = bytes, .n = n }, name, p, r);
+}
+
+enum status iges_read(struct model *m, int fd, size_t n, const char *name, const struct progress *p,
+                      const struct report *r)
+{
+	return parse(m, &(struct iges_bytes){ .fd = fd, .n = n }, name, p, r);
 }

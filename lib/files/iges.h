@@ -15,6 +15,11 @@ bool iges_recognise(const char *bytes, size_t n);
 enum status iges_parse(struct model *m, const char *bytes, size_t n, const char *name,
                        const struct progress *p, const struct report *r);
 
+/* The same from an open file of n bytes that can be read anywhere in (not a pipe), which is not kept in
+ * memory. */
+enum status iges_read(struct model *m, int fd, size_t n, const char *name, const struct progress *p,
+                      const struct report *r);
+
 /* The surfaces and curves of a model as entities 128 (with trims: 144 on it) and 126, each the part
  * that its domain means.
  * No time, no host in the header. Without a unit millimetres are stated, with a warning. */

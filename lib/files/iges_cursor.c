@@ -64,7 +64,8 @@ static bool to_line(struct iges_cursor *c, int i)
 			return false;
 	}
 	c->line = i;
-	iges_line(g, i, &c->s, &c->end);
+	c->s = c->text;
+	c->end = c->text + iges_line(g, i, c->text);
 	return true;
 }
 

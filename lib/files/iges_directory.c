@@ -10,17 +10,18 @@
 enum { FIELD = 8 };
 
 /* Field k (0 .. 8) of a line as text of 8 columns; short lines read as blanks. */
-static void field_text(const struct iges *g, int line, int k, char out[FIELD + 1])
+static void field_text(struct iges *g, int line, int k, char out[FIELD + 1])
 {
-	size_t at = g->d_lines[line] + (size_t)k * FIELD;
-	for (int i = 0; i < FIELD; i++) {
-		char c = at + i < g->n ? g->bytes[at + i] : ' ';
+	size_t got;
+	const char *s = iges_bytes_at(&g->bytes, g->d_lines[line] + (size_t)k * FIELD, FIELD, &got);
+	for (size_t i = 0; i < FIELD; i++) {
+		char c = i < got ? s[i] : ' ';
 		out[i] = c == '\t' || c == '\0' ? ' ' : c;
 	}
 	out[FIELD] = '\0';
 }
 
-static int field_int(const struct iges *g, int line, int k)
+static int field_int(struct iges *g, int line, int k)
 {
 	char text[FIELD + 1];
 	field_text(g, line, k, text);
@@ -30,14 +31,14 @@ static int field_int(const struct iges *g, int line, int k)
 }
 
 /* Columns 1-2 of the status number: 01 is blanked. */
-static bool field_blanked(const struct iges *g, int line)
+static bool field_blanked(struct iges *g, int line)
 {
 	char text[FIELD + 1];
 	field_text(g, line, 8, text);
 	return text[1] == '1';
 }
 
-static void field_label(const struct iges *g, int line, char out[FIELD + 1])
+static void field_label(struct iges *g, int line, char out[FIELD + 1])
 {
 	char text[FIELD + 1];
 	field_text(g, line, 7, text);

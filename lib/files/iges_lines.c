@@ -7,6 +7,7 @@
 
 struct line {
 	const char *s;
+	size_t at;   /* where it begins */
 	size_t n;    /* bytes without line end and without blanks behind */
 	char letter; /* of its section, 0: none */
 	size_t data; /* columns before the letter */
@@ -26,25 +27,42 @@ static bool is_number_field(const char *s)
 	return true;
 }
 
-/* From *at on; false at the end. Empty lines come with letter 0. */
-static bool next_line(const struct iges *g, size_t *at, struct line *l)
+/* Where the line that begins at `at` ends and how long its end is; lines longer than is looked at are
+ * gone through to their end. */
+static size_t line_length(struct iges *g, const char *s, size_t got, size_t at, size_t *whole)
 {
-	if (*at >= g->n)
-		return false;
-	const char *s = g->bytes + *at;
-	size_t left = g->n - *at, n = left;
 	if (g->stride) {
-		n = left < g->stride ? left : g->stride;
-		*at += n;
-	} else {
-		const char *e = memchr(s, g->line_end, left);
-		if (e)
-			n = (size_t)(e - s);
-		*at += e ? n + 1 : n;
+		size_t n = got < g->stride ? got : g->stride;
+		*whole = n;
+		return n;
 	}
+	const char *e = memchr(s, g->line_end, got);
+	size_t n = e ? (size_t)(e - s) : got;
+	*whole = n;
+	for (size_t more = got; !e && more == LINE_MOST;) {
+		s = iges_bytes_at(&g->bytes, at + *whole, LINE_MOST, &more);
+		e = memchr(s, g->line_end, more);
+		*whole += e ? (size_t)(e - s) : more;
+	}
+	*whole += e != NULL;
+	return n;
+}
+
+/* From *at on; false at the end. Empty lines come with letter 0. */
+static bool next_line(struct iges *g, size_t *at, struct line *l)
+{
+	size_t got, whole;
+	const char *s = iges_bytes_at(&g->bytes, *at, LINE_MOST, &got);
+	if (!got)
+		return false;
+	size_t n = line_length(g, s, got, *at, &whole);
+	s = iges_bytes_at(&g->bytes, *at, n, &got);
+	l->at = *at;
+	*at += whole;
+	n = got < n ? got : n;
 	while (n && (s[n - 1] == ' ' || s[n - 1] == '\r' || s[n - 1] == '\n'))
 		n--;
-	*l = (struct line){ .s = s, .n = n };
+	*l = (struct line){ .s = s, .at = l->at, .n = n };
 	if (n > LETTER_COLUMN && is_letter_of_section(s[LETTER_COLUMN]) &&
 	    (n <= LETTER_COLUMN + 8 || is_number_field(s + LETTER_COLUMN + 1)))
 		l->data = LETTER_COLUMN;
@@ -59,11 +77,12 @@ static bool next_line(const struct iges *g, size_t *at, struct line *l)
 /* How lines end is the same in the whole file. */
 static void find_line_end(struct iges *g)
 {
-	size_t look = g->n < 4096 ? g->n : 4096;
+	size_t look;
+	const char *s = iges_bytes_at(&g->bytes, 0, LINE_MOST, &look);
 	g->line_end = '\n';
-	if (memchr(g->bytes, '\n', look))
+	if (memchr(s, '\n', look))
 		return;
-	if (memchr(g->bytes, '\r', look))
+	if (memchr(s, '\r', look))
 		g->line_end = '\r';
 	else
 		g->stride = 80;
@@ -80,7 +99,7 @@ static bool is_first_line(const struct line *l)
 
 bool iges_recognise(const char *bytes, size_t n)
 {
-	struct iges g = { .bytes = bytes, .n = n };
+	struct iges g = { .bytes = { .all = bytes, .n = n } };
 	struct line l = { 0 };
 	size_t at = 0;
 	find_line_end(&g);
@@ -106,7 +125,7 @@ static bool add_offset(size_t **p, int *n, size_t offset)
 
 static enum status add_line(struct iges *g, const struct line *l)
 {
-	size_t offset = (size_t)(l->s - g->bytes);
+	size_t offset = l->at;
 	bool good = true;
 	switch (l->letter) {
 	case 'C':
@@ -162,28 +181,38 @@ enum status iges_index(struct iges *g)
 	return ST_OK;
 }
 
-void iges_line(const struct iges *g, int i, const char **s, const char **end)
+int iges_line(struct iges *g, int i, char out[DATA_MOST])
 {
-	size_t offset = g->p_lines[i];
-	*s = g->bytes + offset;
-	if (!g->odd_lines) {
-		*end = *s + DATA_COLUMNS;
-		return;
+	size_t at = g->p_lines[i], n = DATA_COLUMNS, got;
+	if (g->odd_lines) {
+		struct line l = { 0 };
+		size_t next = at;
+		next_line(g, &next, &l);
+		n = l.data > HEADER_COLUMNS - DATA_COLUMNS
+		            ? l.data - (HEADER_COLUMNS - DATA_COLUMNS)
+		            : 0;
+		n = n < DATA_MOST ? n : DATA_MOST;
 	}
-	struct line l = { 0 };
-	next_line(g, &offset, &l);
-	*end = *s + (l.data > HEADER_COLUMNS - DATA_COLUMNS
-	                     ? l.data - (HEADER_COLUMNS - DATA_COLUMNS)
-	                     : 0);
+	const char *s = iges_bytes_at(&g->bytes, at, n, &got);
+	memcpy(out, s, got);
+	return (int)got;
 }
 
-int iges_back_pointer(const struct iges *g, int i)
+int iges_back_pointer(struct iges *g, int i)
 {
-	const char *s, *end;
-	iges_line(g, i, &s, &end);
+	size_t at = g->p_lines[i] + DATA_COLUMNS, got;
+	if (g->odd_lines) {
+		struct line l = { 0 };
+		size_t next = g->p_lines[i];
+		next_line(g, &next, &l);
+		at = l.at + (l.data > HEADER_COLUMNS - DATA_COLUMNS
+		                     ? l.data - (HEADER_COLUMNS - DATA_COLUMNS)
+		                     : 0);
+	}
+	const char *s = iges_bytes_at(&g->bytes, at, HEADER_COLUMNS - DATA_COLUMNS, &got);
 	int de = 0;
-	for (int k = 0; k < HEADER_COLUMNS - DATA_COLUMNS; k++) {
-		char c = end[k];
+	for (size_t k = 0; k < got; k++) {
+		char c = s[k];
 		if (c >= '0' && c <= '9' && de < INT_MAX / 10 - 1)
 			de = 10 * de + (c - '0');
 		else if (c != ' ')

@@ -1,7 +1,8 @@
 /* iges_reader.h - what the files of the IGES reader share.
  *
  * The reader works on the file's own bytes: an index holds where each line of the directory (D) and
- * of the parameter data (P) begins, and a cursor walks over the 64 columns of data of P lines.
+ * of the parameter data (P) begins, and a cursor walks over the 64 columns of data of P lines, a copy of
+ * one at a time.
  * Sections, columns and field numbers are those of IGES 5.3 (US PRO, 1996), section 2.2.
  */
 #ifndef BATTEN_IGES_READER_H
@@ -10,11 +11,14 @@
 #include <stdint.h>
 
 #include "iges.h"
+#include "iges_bytes.h"
 
 enum {
 	DATA_COLUMNS = 64,   /* of a P line; the rest is the back pointer, letter and number */
 	HEADER_COLUMNS = 72, /* of an S or G line */
 	LETTER_COLUMN = 72,  /* from 0 */
+	LINE_MOST = 4096,    /* bytes of a line that are looked at */
+	DATA_MOST = 256,     /* bytes of 64 columns, where characters take several */
 	NESTING_MAX = 16,    /* entities made of entities made of ... */
 };
 
@@ -88,8 +92,7 @@ struct iges_edges {
 };
 
 struct iges {
-	const char *bytes;
-	size_t n;
+	struct iges_bytes bytes;
 	const char *name;          /* of the file, borrowed */
 	size_t stride;             /* bytes a line where no line ends are in the file, else 0 */
 	char line_end;             /* '\n' or '\r' */
@@ -134,10 +137,10 @@ struct iges {
 
 /* iges_lines.c. Errors: ST_INPUT (compressed or binary form, no T line), ST_RESOURCE. */
 enum status iges_index(struct iges *g);
-/* Data columns of P line i (from 0). */
-void iges_line(const struct iges *g, int i, const char **s, const char **end);
+/* Data columns of P line i (from 0) into `out`; how many bytes. */
+int iges_line(struct iges *g, int i, char out[DATA_MOST]);
 /* The directory entry that P line i says it belongs to; 0 if it cannot be read. */
-int iges_back_pointer(const struct iges *g, int i);
+int iges_back_pointer(struct iges *g, int i);
 
 /* iges_header.c: delimiters, unit and scale into g->header and g->m. Errors: ST_RESOURCE. */
 enum status iges_read_header(struct iges *g);
@@ -156,8 +159,9 @@ enum status iges_say_warnings(struct iges *g);
 /* iges_cursor.c: parameters of one entity, one after the other. */
 struct iges_cursor {
 	struct iges *g;
-	int de, line, last; /* P lines from 0: at hand, the last that the entry counts */
-	const char *s, *end;
+	int de, line, last;  /* P lines from 0: at hand, the last that the entry counts */
+	const char *s, *end; /* in text */
+	char text[DATA_MOST];
 	bool ended;     /* the record delimiter has been met */
 	size_t missing; /* parameters asked for that are empty or behind the end */
 	enum status st; /* a cursor that has failed stays failed */

@@ -1,8 +1,11 @@
 /* model_read.c - files found by their content, entities found by what the user calls them. */
 #include "model.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base.h"
 #include "csv.h"
@@ -26,12 +29,31 @@ enum status progress_step(const struct progress *p, double fraction)
 	return ST_OK;
 }
 
-enum status model_read(struct model *m, const char *path, const struct progress *p,
-                       const struct report *r)
+/* IGES files are large: they are read from the disk as they are needed. *is: it was one. */
+static enum status read_iges(struct model *m, const char *path, bool *is, const struct progress *p,
+                             const struct report *r)
+{
+	char head[4096];
+	struct stat file;
+	enum status st = ST_OK;
+	int fd = open(path, O_RDONLY | O_CLOEXEC);
+	*is = false;
+	if (fd >= 0 && !fstat(fd, &file) && S_ISREG(file.st_mode)) {
+		ssize_t n = pread(fd, head, sizeof head, 0);
+		*is = n > 0 && !base_recognise(head, (size_t)n) && iges_recognise(head, (size_t)n);
+	}
+	if (*is)
+		st = iges_read(m, fd, (size_t)file.st_size, path, p, r);
+	if (fd >= 0)
+		close(fd);
+	return st;
+}
+
+static enum status read_whole(struct model *m, const char *path, const struct progress *p,
+                              const struct report *r)
 {
 	char *bytes = NULL;
 	size_t n = 0;
-	model_init(m);
 	enum status st = file_read(path, file_size_max, &bytes, &n, r);
 	if (st != ST_OK)
 		return st;
@@ -39,7 +61,7 @@ enum status model_read(struct model *m, const char *path, const struct progress 
 		st = report_error(r, ST_INPUT, "cannot read '%s': the file is empty", path);
 	else if (base_recognise(bytes, n))
 		st = base_parse(m, bytes, n, path, p, r);
-	else if (iges_recognise(bytes, n))
+	else if (iges_recognise(bytes, n)) /* from a pipe */
 		st = iges_parse(m, bytes, n, path, p, r);
 	else if (g2_recognise(bytes, n))
 		st = g2_parse(m, bytes, n, path, p, r);
@@ -52,6 +74,17 @@ enum status model_read(struct model *m, const char *path, const struct progress 
 		                  "(first line such as '200 1 0 0') or columns of points",
 		                  path);
 	free(bytes);
+	return st;
+}
+
+enum status model_read(struct model *m, const char *path, const struct progress *p,
+                       const struct report *r)
+{
+	bool iges;
+	model_init(m);
+	enum status st = read_iges(m, path, &iges, p, r);
+	if (!iges)
+		st = read_whole(m, path, p, r);
 	if (st == ST_OK && (st = model_set_text(&m->file, path)) != ST_OK)
 		report_error(r, st, "cannot read '%s': no memory", path);
 	if (st != ST_OK)
