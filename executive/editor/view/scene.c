@@ -8,7 +8,7 @@ enum {
 	FINE_TRIANGLES = 600000,
 };
 static const double chord_px = 0.2;      /* of triangles from their surface, device px */
-static const double line_px = 0.2;       /* of chords from their curve */
+static const double line_px = 0.1;       /* of chords from their curve */
 static const double coarse_chord = 1e-3; /* of the scene's size */
 static const double cut_seconds = 0.06;  /* a drawing may spend on triangles */
 
