@@ -27,7 +27,7 @@ def test_a_code_is_explained(project):
 def test_a_code_as_json(project):
     row, = project.json("batten", "help", "V80")["help"]
     assert row["code"] == "V80" and row["path"].endswith(" > CURVATURE > GAUSSIAN")
-    assert [a["name"] for a in row["arguments"]] == ["range", "scale", "symmetric"]
+    assert [a["name"] for a in row["arguments"]] == ["range", "scale", "symmetric", "wait"]
     assert all(a["range"] and a["help"] for a in row["arguments"])
     assert "V79" in row["see"] and row["purpose"] and row["result"] and row["example"].startswith("V80")
     menu, = project.json("batten", "help", "N31")["help"]

@@ -108,6 +108,25 @@ static enum status read_back(struct sheet *s, const struct report *r)
 	return ST_OK;
 }
 
+/* Of the values of a map, where all things that may have one are in the same unit. */
+static const char *key_unit(const struct world *w, int quantity, char out[64])
+{
+	const char *unit = NULL;
+	for (int i = 0; i < world_count(w); i++) {
+		const struct Ful *f = world_at(w, i);
+		if (f->entity.kind != ENTITY_SURFACE || !f->display.on)
+			continue;
+		if (!f->unit || (unit && strcmp(unit, f->unit) != 0)) {
+			unit = NULL;
+			break;
+		}
+		unit = f->unit;
+	}
+	snprintf(out, 64, "1/%.50s%s", unit ? unit : "length",
+	         quantity_table[quantity < 0 ? 0 : quantity].power == 2 ? "²" : "");
+	return out;
+}
+
 static void write_words(struct sheet *s, struct view *v, const struct world *w,
                         const struct render_options *o, enum theme set)
 {
@@ -127,9 +146,8 @@ static void write_words(struct sheet *s, struct view *v, const struct world *w,
 		return;
 	const double high = s->height / o->scale, wide = s->width / o->scale;
 	key.bar = fmin(fmax(floor(0.28 * high), 140), 320);
-	key.unit = quantity_table[shown_quantity(w, o) < 0 ? 0 : shown_quantity(w, o)].power == 2
-	                   ? "1/length²"
-	                   : "1/length";
+	char unit[64];
+	key.unit = key_unit(w, shown_quantity(w, o), unit);
 	double width = fmax(key_width(cr, &key), KEY_RIGHT - PAD);
 	key_draw(cr, &key, floor(wide - PAD - width), PAD);
 }
