@@ -423,7 +423,8 @@ static bool complete(struct desk *d)
 	struct ask *a = &d->ask;
 	const char *s = candidate(a, a->candidate < 0 ? 0 : a->candidate);
 
-	if (!s || !strcmp(s, a->field[a->focus].s))
+	/* where nothing is typed or chosen there is nothing to complete */
+	if (!s || !strcmp(s, a->field[a->focus].s) || (a->candidate < 0 && !a->field[a->focus].n))
 		return false;
 	desk_ask_candidate(d, a->candidate < 0 ? 0 : a->candidate);
 	return true;

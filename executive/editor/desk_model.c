@@ -185,7 +185,8 @@ static void foot_of_ask(struct desk *d, struct foot_model *m, struct scraps *s)
 		const char *best = list[a->candidate < 0 ? 0 : a->candidate];
 		if (a->field[a->focus].n && !strncmp(best, m->typed, strlen(m->typed)))
 			m->rest = best + strlen(m->typed);
-		hint(m, "Tab", "complete");
+		hint(m, "Tab",
+		     a->field[a->focus].n || a->candidate >= 0 ? "complete" : "next field");
 	} else if (a->n > 1) {
 		hint(m, "Tab", "next field");
 	}

@@ -158,6 +158,28 @@ static void set_light(struct desk *d, double x, double y)
 
 /* ------------------------------------------------------------ begin, change, end */
 
+/* What the form leaves open is what is seen. */
+static void fill_empty(struct desk *d, int color)
+{
+	const struct sight *s = world_sight(d->world);
+	const char *value;
+
+	if (d->tool == TOOL_COLOR && color >= 0 && !d->ask.field[color].n) {
+		struct rgb c = desk_color_model(d).old;
+		desk_ask_set(d, d->ask.rows[color].name, "#%02X%02X%02X",
+		             (unsigned)lround(255 * c.r), (unsigned)lround(255 * c.g),
+		             (unsigned)lround(255 * c.b));
+	}
+	if (d->tool != TOOL_LIGHT)
+		return;
+	if ((value = desk_ask_get(d, "intensity")) && !*value)
+		desk_ask_set(d, "intensity", "%g", s->light_intensity);
+	if ((value = desk_ask_get(d, "azimuth")) && !*value)
+		desk_ask_set(d, "azimuth", "%g", s->light_azimuth);
+	if ((value = desk_ask_get(d, "incidence")) && !*value)
+		desk_ask_set(d, "incidence", "%g", s->light_incidence);
+}
+
 void desk_tool_begin(struct desk *d, enum tool tool)
 {
 	const struct Ful *f = world_current(d->world, for_curve(d));
@@ -169,6 +191,7 @@ void desk_tool_begin(struct desk *d, enum tool tool)
 	d->display_thing = tool == TOOL_COLOR && !for_background(d) && f ? f->id : 0;
 	if (f)
 		d->display_before = f->display;
+	fill_empty(d, i);
 	if (tool == TOOL_COLOR && i >= 0 && parse_color(d->ask.field[i].s, &c))
 		to_hsv(c, &d->hue, &d->saturation, &d->value);
 	if (tool == TOOL_POINTS && f) {

@@ -3,6 +3,7 @@
 
 #include <X11/Xlib.h>
 #include <epoxy/glx.h>
+#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -132,6 +133,11 @@ static enum status open_glfw(struct window *w)
 {
 	const char *why = NULL;
 	bool display = getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
+	const char *locale = setlocale(LC_CTYPE, "");
+
+	/* X drops what is typed beyond ASCII in a locale without it */
+	if (!locale || !strcmp(locale, "C") || !strcmp(locale, "POSIX"))
+		setlocale(LC_CTYPE, "C.UTF-8");
 
 	if (!glfwInit()) {
 		glfwGetError(&why);
