@@ -95,6 +95,8 @@ void desk_ask(struct desk *d, const struct routine *t, const struct Menu_Entry *
 	}
 	while (rows && rows[n].name && n < FIELDS_MAX)
 		n++;
+	if (n && !strcmp(rows[n - 1].name, "wait")) /* the window never does */
+		n--;
 	if (!n) {
 		routine_rows_free(rows);
 		struct arguments none = { 0 };

@@ -109,6 +109,10 @@ static void on_button(GLFWwindow *g, int button, int action, int mods)
 
 	if (button > GLFW_MOUSE_BUTTON_MIDDLE)
 		return;
+	/* what came before may have changed what lies where */
+	unsigned dirty = desk_take_dirty(w->desk);
+	if (dirty)
+		window_draw(w, dirty);
 	window_flush_move(w);
 	if (action == GLFW_PRESS)
 		desk_press(w->desk, b, mods_of(mods));
