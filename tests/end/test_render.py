@@ -12,6 +12,9 @@ def render(project, *arguments, status=0):
     project.environment.pop("DISPLAY", None)
     project.environment.pop("WAYLAND_DISPLAY", None)
     project.environment["LIBGL_ALWAYS_SOFTWARE"] = "1"
+    # Mesa unloads its driver before leaks are looked for, so the driver's own cannot be told by their
+    # names any more; the view's own are looked for in its unit test
+    project.environment["ASAN_OPTIONS"] = "detect_leaks=0:" + os.environ.get("ASAN_OPTIONS", "")
     done = project.run("batten", "render", *arguments, status=None)
     if "cannot draw without a window" in done.stderr:
         raise end.Skip(done.stderr.strip())

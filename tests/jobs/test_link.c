@@ -53,6 +53,16 @@ static int tear_down(void **state)
 	return 0;
 }
 
+/* A job that waits at a gate. */
+static int64_t submit_shut(struct tie *t, const char *gate)
+{
+	char *path = place_gate(&t->place, gate);
+	int64_t id = place_submit(&t->place, "good", 4, path);
+
+	free(path);
+	return id;
+}
+
 /* The next news. */
 static void wait_news(struct tie *t)
 {
@@ -86,8 +96,7 @@ static struct link_answer the_answer(struct tie *t)
 static void jobs_are_watched_and_steered(void **state)
 {
 	struct tie *t = *state;
-	char *gate = place_gate(&t->place, "gate");
-	int64_t id = place_submit(&t->place, "good", 4, gate);
+	int64_t id = submit_shut(t, "gate");
 
 	until(t, id, JOB_RUNNING);
 	assert_int_equal(t->state, LINK_UP);
@@ -121,8 +130,7 @@ static void jobs_are_watched_and_steered(void **state)
 static void a_kill_holds_nothing_up(void **state)
 {
 	struct tie *t = *state;
-	int64_t ids[2] = { place_submit(&t->place, "good", 4, place_gate(&t->place, "a")),
-		           place_submit(&t->place, "good", 4, place_gate(&t->place, "b")) };
+	int64_t ids[2] = { submit_shut(t, "a"), submit_shut(t, "b") };
 
 	until(t, ids[0], JOB_RUNNING);
 	until(t, ids[1], JOB_RUNNING);
@@ -135,7 +143,7 @@ static void a_kill_holds_nothing_up(void **state)
 static void a_service_that_dies_is_told_of_and_started_again(void **state)
 {
 	struct tie *t = *state;
-	int64_t id = place_submit(&t->place, "good", 4, place_gate(&t->place, "gate"));
+	int64_t id = submit_shut(t, "gate");
 
 	until(t, id, JOB_RUNNING);
 	place_crash(&t->place);

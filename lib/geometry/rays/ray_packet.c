@@ -67,16 +67,21 @@ static void single_on_shade(const struct RTCOccludedFunctionNArguments *args)
 		((struct RTCRay *)args->ray)->tfar = -INFINITY;
 }
 
+static bool is_single(const struct RTCIntersectContext *c)
+{
+	return ((const struct ray_call *)c)->single;
+}
+
 static void packet_on_leaf(const struct RTCIntersectFunctionNArguments *args)
 {
+	if (is_single(args->context)) {
+		single_on_leaf(args);
+		return;
+	}
 	struct packet *p = (struct packet *)args->context;
 	unsigned n = args->N;
 	float *ray = (float *)args->rayhit;
 
-	if (p->call.single) {
-		single_on_leaf(args);
-		return;
-	}
 	uint32_t *id = (uint32_t *)args->rayhit, *hit = id + (size_t)RAY_FIELDS * n;
 	vi act = packet_mask(args->valid, id, n);
 	vi ok = leaf_trace(p, args->primID, act);
@@ -97,14 +102,14 @@ static void packet_on_leaf(const struct RTCIntersectFunctionNArguments *args)
 
 static void packet_on_shade(const struct RTCOccludedFunctionNArguments *args)
 {
+	if (is_single(args->context)) {
+		single_on_shade(args);
+		return;
+	}
 	struct packet *p = (struct packet *)args->context;
 	unsigned n = args->N;
 	float *ray = (float *)args->ray;
 
-	if (p->call.single) {
-		single_on_shade(args);
-		return;
-	}
 	const uint32_t *id = (const uint32_t *)args->ray;
 	vi ok = leaf_trace(p, args->primID, packet_mask(args->valid, id, n));
 
