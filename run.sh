@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# run.sh [FILE...] - from a bare Debian machine to four finished jobs on a hull (or on FILE...).
+# run.sh [FILE...] - from a bare Debian machine to a hull (or FILE...) in the editor, or to four finished jobs.
 set -u
 case ${1-} in
 -h | --help)
 	cat <<'EOT'
 usage: ./run.sh [FILE...]
 
-Installs what is missing, builds, and runs the main job on the example hull, or on FILE...: shading,
-curvature map, isophotes and ray trace, four worker processes at once on a live board. The results are
-left in first-run/.
+Installs what is missing, builds, and opens the editor on the example hull, or on FILE... Where there is no
+display it runs the main job instead: shading, curvature map, isophotes and ray trace, four worker
+processes at once on a live board. The results are left in first-run/.
 EOT
 	exit 0
 	;;
@@ -27,6 +27,10 @@ build build -Dtests=disabled
 batten=$top/build/executive/batten
 export BATTEN_JOBS=12 # all of a hull's at once, to have something to see
 mkdir -p "$top/first-run" && cd "$top/first-run" || exit 1
+if [ -n "${DISPLAY-}${WAYLAND_DISPLAY-}" ]; then
+	"$batten" "${files[@]}" && exit
+	say "the window did not open; going on without it"
+fi
 ids=()
 # job WORKER [--PARAMETER]... - queue it on all files
 job() {

@@ -6,6 +6,7 @@ BATTEN_BUILD. A test that cannot run here raises end.Skip with the reason.
 import contextlib
 import json
 import os
+import pty
 import shutil
 import signal
 import subprocess
@@ -108,6 +109,14 @@ def until(condition, what):
             return x
         time.sleep(0.01)
     raise AssertionError(f"waited in vain: {what}")
+
+
+def terminal():
+    """Both ends of a new terminal."""
+    try:
+        return pty.openpty()
+    except OSError as why:
+        raise Skip(f"there is no terminal to be had: {why}") from why
 
 
 def data_folder():

@@ -1,7 +1,6 @@
 """The live board of `batten jobs --follow`: right with many jobs, in a narrow window, after a resize and a stop."""
 import fcntl
 import os
-import pty
 import re
 import select
 import signal
@@ -19,7 +18,7 @@ class Board:
     """A terminal of a size, and what is drawn on it."""
 
     def __init__(self, project, rows, columns):
-        self.leader, follower = pty.openpty()
+        self.leader, follower = end.terminal()
         self.resize(rows, columns)
         self.process = project.start("batten", "jobs", "--follow", stdout=follower, stderr=follower)
         os.close(follower)
