@@ -27,7 +27,7 @@ struct local {
 	const struct project *project;
 	struct launcher launcher;
 	struct launcher_sink sink;
-	char *stub, *host;
+	char *starter, *host;
 	char *name, *path; /* the worker found last, for the next job of the same */
 	int niceness;
 	double hello_s;     /* that a process has for its first packet, 0: any time */

@@ -82,7 +82,7 @@ static enum status worker_start(struct worker *w, struct Stats *s, const struct 
 	struct local *l = w->local;
 	enum status st;
 	struct spawn spawn = {
-		.stub = l->stub,
+		.starter = l->starter,
 		.worker = worker_path(l, s->worker, &st, r),
 		.log = w->log,
 		.niceness = l->niceness,
@@ -205,7 +205,7 @@ static void local_forget(void *data, int64_t id)
 }
 
 /* Beside the program, in the build tree it lies in, or installed. */
-static char *stub_find(void)
+static char *starter_find(void)
 {
 	static const char *const places[] = { "batten-launch", "jobs/batten-launch",
 		                              "../../executive/jobs/batten-launch",
@@ -234,8 +234,8 @@ enum status local_create(struct local **out, uv_loop_t *loop, const struct proje
 	l->project = p;
 	l->niceness = niceness;
 	l->host = strdup(host);
-	l->stub = stub_find();
-	if (!l->host || !l->stub) {
+	l->starter = starter_find();
+	if (!l->host || !l->starter) {
 		local_destroy(l);
 		return report_error(r, ST_RESOURCE,
 		                    "cannot find 'batten-launch' beside this program; build or "
@@ -300,7 +300,7 @@ void local_destroy(struct local *l)
 {
 	if (!l)
 		return;
-	free(l->stub);
+	free(l->starter);
 	free(l->host);
 	free(l->name);
 	free(l->path);

@@ -1,4 +1,4 @@
-/* process.c - start one process behind the stub, and end one left by a dead service. */
+/* process.c - start one process through the starter, and end one left by a dead service. */
 #include "process.h"
 
 #include <errno.h>
@@ -15,12 +15,12 @@
 
 extern char **environ;
 
-static int stub_start(const struct spawn *s, int in, int out, pid_t *pid)
+static int starter_run(const struct spawn *s, int in, int out, pid_t *pid)
 {
 	char parent[24], niceness[12], memory[24];
 	char *alone[] = { (char *)s->worker, NULL };
 	char *const *words = s->words ? s->words : alone;
-	char *argv[SPAWN_WORDS + 5] = { (char *)s->stub, parent, niceness, memory };
+	char *argv[SPAWN_WORDS + 5] = { (char *)s->starter, parent, niceness, memory };
 	for (size_t i = 0; words[i] && i < SPAWN_WORDS; i++)
 		argv[i + 4] = words[i];
 	snprintf(parent, sizeof parent, "%ld", (long)getpid());
@@ -41,7 +41,7 @@ static int stub_start(const struct spawn *s, int in, int out, pid_t *pid)
 	posix_spawn_file_actions_adddup2(&actions, in, 0);
 	posix_spawn_file_actions_adddup2(&actions, out, 1);
 	posix_spawn_file_actions_adddup2(&actions, s->log, 2);
-	int error = posix_spawn(pid, s->stub, &actions, &attributes, argv, environ);
+	int error = posix_spawn(pid, s->starter, &actions, &attributes, argv, environ);
 	posix_spawn_file_actions_destroy(&actions);
 	posix_spawnattr_destroy(&attributes);
 	return error;
@@ -59,7 +59,7 @@ enum status spawn_worker(const struct spawn *s, pid_t *pid, int *in, int *out, i
 		error = errno;
 		goto fail_to;
 	}
-	error = stub_start(s, to[0], from[1], pid);
+	error = starter_run(s, to[0], from[1], pid);
 	if (error)
 		goto fail_from;
 	*pidfd = pidfd_open(*pid, 0);

@@ -1,4 +1,4 @@
-/* process.h - start one process behind the stub, and end one left by a dead service. */
+/* process.h - start one process through the starter, and end one left by a dead service. */
 #ifndef BATTEN_PROCESS_H
 #define BATTEN_PROCESS_H
 
@@ -10,7 +10,7 @@
 enum { SPAWN_WORDS = 64 };
 
 struct spawn {
-	const char *stub, *worker;
+	const char *starter, *worker;
 	char *const *words; /* of the command, NULL at the end; NULL: the worker alone */
 	int log;            /* becomes standard error */
 	int niceness;

@@ -227,7 +227,7 @@ static void babbles(void)
 	play_stay();
 }
 
-/* What the stub has set. */
+/* What the starter has set. */
 static void shows(void)
 {
 	struct rlimit data, core;

@@ -124,7 +124,7 @@ static bool keep_id(void *data, const struct Stats *s)
 	return true;
 }
 
-static void the_stub_sets_what_a_worker_must_not(void **state)
+static void the_starter_sets_what_a_worker_must_not(void **state)
 {
 	struct place *p = *state;
 	char *text;
@@ -486,7 +486,7 @@ int main(void)
 		T(suspends_the_process_and_activates_it),
 		T(sees_a_stop_from_outside),
 		T(kill_keeps_the_part_and_retry_goes_on),
-		T(the_stub_sets_what_a_worker_must_not),
+		T(the_starter_sets_what_a_worker_must_not),
 		T(groups_are_named_as_one),
 		T(a_slow_watcher_hears_the_last_word),
 		T(a_watch_that_stays_hears_of_later_jobs),

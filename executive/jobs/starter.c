@@ -1,4 +1,4 @@
-/* stub.c - batten-launch: becomes a worker, after setting what a worker must not set for itself.
+/* starter.c - batten-launch: becomes a worker, after setting what a worker must not set for itself.
  *
  *	batten-launch PARENT NICENESS BYTES WORKER [WORD...]
  *
@@ -29,7 +29,7 @@
 
 enum { STATUS_USAGE = 125, STATUS_NOT_STARTED = 126 };
 
-static int stub_fails(const char *what)
+static int starter_fails(const char *what)
 {
 	fprintf(stderr, "batten-launch: cannot %s: %s\n", what, strerror(errno));
 	return STATUS_NOT_STARTED;
@@ -57,20 +57,20 @@ int main(int argc, char **argv)
 	unsigned long long bytes = strtoull(argv[3], NULL, 10);
 
 	if (prctl(PR_SET_PDEATHSIG, SIGKILL))
-		return stub_fails("ask for the parent's death");
+		return starter_fails("ask for the parent's death");
 	/* it may have died before it was asked for */
 	if (getppid() != parent)
 		raise(SIGKILL);
 	close_range(3, ~0U, 0);
 	if (limit_set(RLIMIT_CORE, 0) || (bytes && !CHECKED_BUILD && limit_set(RLIMIT_DATA, bytes)))
-		return stub_fails("set limits");
+		return starter_fails("set limits");
 	if (niceness)
 		setpriority(PRIO_PROCESS, 0, niceness);
 	/* batten's own threads are all there are */
 	if (setenv("OPENBLAS_NUM_THREADS", "1", 1) || setenv("OMP_NUM_THREADS", "1", 1))
-		return stub_fails("set the environment");
+		return starter_fails("set the environment");
 	execv(argv[4], argv + 4);
-	stub_fails("start the worker");
+	starter_fails("start the worker");
 	fprintf(stderr, "batten-launch: the worker is '%s'\n", argv[4]);
 	return STATUS_NOT_STARTED;
 }
