@@ -5,19 +5,10 @@
 #include "desk.h"
 #include "typed.h"
 
-enum {
-	PATH_MAX_DEPTH = 16,
-	FIELDS_MAX = 48,
-	MESSAGES_MAX = 200,
-	CANDIDATES_MAX = 8,
-	HISTORY_MAX = 100,
-	RESULTS_MAX = 8,
-	FOUND_MAX = 256,
-	TILES_MAX = 8,
-	PICKED_MAX = 512,
-	ENTRIES_MAX = 14,
-	BUTTONS_MAX = 4,
-};
+/* how much is kept, and how much is shown of what is found */
+enum { PATH_MAX_DEPTH = 16, ENTRIES_MAX = 14, TILES_MAX = 8, PICKED_MAX = 512 };
+enum { MESSAGES_MAX = 200, HISTORY_MAX = 100, FIELDS_MAX = 48, BUTTONS_MAX = 4 };
+enum { CANDIDATES_MAX = 8, RESULTS_MAX = 8, FOUND_MAX = 256 };
 
 /* What covers the view or the panel, and takes the keys. */
 enum page { PAGE_NONE, PAGE_JOBS, PAGE_SEARCH, PAGE_HELP, PAGE_KEYS, PAGE_MESSAGES, PAGE_QUESTION };
@@ -220,9 +211,6 @@ void desk_ask_end(struct desk *d);
 bool desk_ask_key(struct desk *d, enum desk_key key, unsigned mods);
 bool desk_ask_text(struct desk *d, uint32_t c);
 void desk_ask_focus(struct desk *d, int field);
-void desk_ask_changed(struct desk *d); /* the text in focus: candidates, error gone */
-void desk_ask_candidate(struct desk *d, int k);
-void desk_ask_choice(struct desk *d, int field, int part);
 void desk_ask_accept(struct desk *d);
 void desk_ask_run(struct desk *d); /* as accept, and the form stays */
 void desk_ask_defaults(struct desk *d);
@@ -232,6 +220,20 @@ void desk_ask_set(struct desk *d, const char *name, const char *format, ...)
 const char *desk_ask_get(const struct desk *d, const char *name); /* NULL: no such field */
 int desk_ask_find(const struct desk *d, const char *name);        /* -1 */
 enum form_kind desk_form_kind(const struct argument_row *row);
+struct act desk_act(struct desk *d); /* to ask routines about their rows */
+void desk_ask_dirty(struct desk *d);
+void desk_ask_error(struct ask *a, int field, const char *text); /* NULL or "": it is fine */
+
+/* desk_ask_values.c: of the field in focus */
+void desk_ask_candidates(struct desk *d);
+void desk_ask_changed(struct desk *d); /* the text: candidates, error gone */
+void desk_ask_candidate(struct desk *d, int k);
+void desk_ask_choice(struct desk *d, int field, int part);
+bool desk_ask_complete(struct desk *d); /* false: nothing to complete */
+void desk_ask_remember(struct desk *d, const char *name, const char *value);
+void desk_ask_recall(struct desk *d, int step);
+bool desk_ask_step(struct desk *d, int up);
+bool desk_ask_up_down(struct desk *d, int down);
 
 /* desk_search.c */
 void desk_search_open(struct desk *d);
@@ -264,11 +266,14 @@ void desk_duration(double seconds, char out[96]); /* "1:24", "2 h 10" */
 void desk_results(struct desk *d);                /* show what has come */
 int desk_unended(const struct desk *d);
 
-/* desk_view.c */
+/* desk_tiles.c */
 void desk_views_place(struct desk *d);
 void desk_views_fit(struct desk *d, const char *view);
 void desk_views_adopt(struct desk *d);
+void desk_views_spread(struct desk *d, int from);
 int desk_tile_at(const struct desk *d, double x, double y); /* -1: none */
+
+/* desk_view.c */
 bool desk_view_press(struct desk *d, enum desk_button b, unsigned mods);
 void desk_view_move(struct desk *d, double dx, double dy);
 void desk_view_release(struct desk *d);
@@ -276,7 +281,14 @@ void desk_view_scroll(struct desk *d, double dy);
 bool desk_view_key(struct desk *d, enum desk_key key, unsigned mods);
 bool desk_view_text(struct desk *d, uint32_t c);
 void desk_drag_cancel(struct desk *d);
+
+/* desk_probe.c */
+bool desk_pick_at(struct desk *d, bool points, struct pick *out); /* under the mouse */
+bool desk_pick_wanted(const struct desk *d); /* the field in focus asks for what can be picked */
+void desk_pick_give(struct desk *d);
 void desk_hover(struct desk *d);
+void desk_probe(struct desk *d);
+void desk_probe_keep(struct desk *d);
 void desk_probe_hide(struct desk *d);
 
 /* desk_tools.c, desk_points.c */
