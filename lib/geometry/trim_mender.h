@@ -24,6 +24,18 @@ void trim_curve_end(const struct curve *c, int end, double uv[2]);
 void trim_curve_set_end(struct curve *c, int end, const double uv[2]);
 void trim_curve_move(struct curve *c, int d, double by);
 
+/* Say what is wrong with the loop at hand. */
+enum status trim_fail(const struct mender *m, const char *fault);
+
+/* Curves c[0..n) in order and direction into *out, moved by periods. *whole false: there is a gap.
+ * Errors: ST_RESOURCE. */
+enum status trim_chain(struct mender *m, const struct curve *c, int n, bool turn_first,
+                       struct trim_loop *out, bool *whole);
+
+/* Close the gaps of a chain; winds[d]: whole periods from its start to its end.
+ * Errors: ST_INPUT (its ends do not meet), ST_RESOURCE. */
+enum status trim_close_gaps(struct mender *m, struct trim_loop *l, double winds[2]);
+
 /* Append the straight line between two points. Errors: ST_RESOURCE. */
 enum status trim_add_line(struct trim_loop *l, const double from[2], const double to[2]);
 
