@@ -32,6 +32,9 @@ struct peer {
 	/* Cubics; how many control points came of it. */
 	int (*interpolate_curve)(const double *xyz, int n);
 	int (*interpolate_surface)(const double *xyz, int n); /* n x n, x fastest */
+	/* The offset along the normal, over the same parameters: a surface of the peer's, or NULL. */
+	void *(*offset)(void *surface, double distance, double tolerance);
+	void (*poles)(void *surface, int n[2]);
 	/* IGES to splines in memory: how many things came of it. */
 	int (*read_iges)(const char *path);
 };

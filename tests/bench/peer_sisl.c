@@ -179,6 +179,27 @@ static int interpolate_surface(const double *xyz, int n)
 	return found;
 }
 
+static void *offset(void *data, double distance, double tolerance)
+{
+	const struct sisl *x = data;
+	struct sisl *out = calloc(1, sizeof *out);
+	int status;
+	if (!out)
+		bench_fail("out of memory");
+	s1365(x->s, distance, tolerance, 0, 3, &out->s, &status);
+	if (status >= 0 && out->s)
+		return out;
+	free(out);
+	return NULL;
+}
+
+static void poles(void *data, int n[2])
+{
+	const struct sisl *x = data;
+	n[0] = x->s->in1;
+	n[1] = x->s->in2;
+}
+
 const struct peer peer_sisl = {
 	.name = "SISL",
 	.surface = surface,
@@ -191,4 +212,6 @@ const struct peer peer_sisl = {
 	.curvature = curvature,
 	.interpolate_curve = interpolate_curve,
 	.interpolate_surface = interpolate_surface,
+	.offset = offset,
+	.poles = poles,
 };

@@ -18,6 +18,7 @@ PEERS = ["libsisl-dev", "libocct-modeling-algorithms-dev", "libembree-dev", "pov
 SENTENCES = [
     (r"^(50 planes, 1e-6) .*, ([\d.]+) ms", "10", "ms", 30, True),
     (r"^(50 planes, 1e-4) .*, ([\d.]+) ms", "11", "ms", 18, True),
+    (r"^(10 cylinders, 1e-6) .*, ([\d.]+) ms", "12", "ms", 6, True),
     (r"^(silhouette, 1e-6) .*, ([\d.]+) ms", "14", "ms", 4, True),
     (r"^(isophote 35 degrees, 1e-6) .*, ([\d.]+) ms", "15", "ms", 10, True),
     (r"^(1000 jobs that do nothing), .*ratio ([\d.]+)", "jobs", "x xargs -P2", 3, True),
