@@ -1,5 +1,8 @@
 /* fuzz_service.c - bytes from a client to the service: packets, requests, queue. The launcher starts
- * nothing, the ledger keeps nothing, the project is an empty folder. */
+ * nothing, the ledger keeps nothing, the project is an empty folder.
+ *
+ * What begins with a digit is lines of a packet's number and text, so that what changes in the text keeps
+ * the length in the header right. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -150,6 +153,23 @@ static void converse(struct session *c, const uint8_t *data, size_t n)
 	}
 }
 
+/* Lines as packets. */
+static void encode_lines(const uint8_t *data, size_t n, struct text *out)
+{
+	for (size_t at = 0; at < n;) {
+		const uint8_t *end = memchr(data + at, '\n', n - at);
+		size_t next = end ? (size_t)(end - data) + 1 : n, last = end ? next - 1 : n;
+		unsigned char head[MESSAGE_HEADER] = { 0 };
+		for (; at < last && data[at] >= '0' && data[at] <= '9'; at++)
+			head[0] = (unsigned char)(head[0] * 10 + data[at] - '0');
+		head[4] = (unsigned char)(last - at);
+		head[5] = (unsigned char)((last - at) >> 8);
+		text_add_bytes(out, head, sizeof head);
+		text_add_bytes(out, data + at, last - at);
+		at = next;
+	}
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n)
 {
 	static const struct project project = { .folder = "/nonexistent",
@@ -168,7 +188,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n)
 	message_reader_init(&c.reader, FROM_CLIENT);
 	if (queue_create(&s.queue, &ports, &limits) != ST_OK)
 		return 0;
+	struct text packets = { 0 };
+	if (n && data[0] >= '0' && data[0] <= '9') {
+		encode_lines(data, n, &packets);
+		data = (const uint8_t *)packets.s;
+		n = packets.n;
+	}
 	converse(&c, data, n);
+	text_finish(&packets);
 	while (c.requests) {
 		struct request *q = c.requests;
 		c.requests = q->next;
