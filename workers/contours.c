@@ -77,7 +77,7 @@ static enum status levels_begin(struct work *w, struct contour_state *s)
 		fields[i].value = s->values[i] = set->values[place];
 		s->kinds[i] = contour_names[set->kind];
 	}
-	enum status st = level_work_init(&s->level, w, fields, n, s->tolerance);
+	enum status st = level_work_init(&s->level, w, fields, s->values, n, s->tolerance);
 	free(fields);
 	return st;
 }

@@ -98,7 +98,7 @@ static enum status isocurvature_begin(struct work *w)
 			                          .quantity = s->quantity,
 			                          .value = s->values[i] };
 	if (st == ST_OK)
-		st = level_work_init(&s->level, w, fields, s->n, s->tolerance);
+		st = level_work_init(&s->level, w, fields, s->values, s->n, s->tolerance);
 	free(fields);
 	return st;
 }

@@ -101,7 +101,7 @@ static enum status isophotes_begin(struct work *w)
 			                          .direction = light,
 			                          .value = cos(s->angles[i] * M_PI / 180) };
 	if (st == ST_OK)
-		st = level_work_init(&s->level, w, fields, s->n_angles, s->tolerance);
+		st = level_work_init(&s->level, w, fields, s->angles, s->n_angles, s->tolerance);
 	free(fields);
 	return st;
 }

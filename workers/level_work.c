@@ -27,6 +27,7 @@ void level_work_finish(struct level_work *l)
 	free(l->results);
 	free(l->levels);
 	free(l->first);
+	free(l->heads);
 	*l = (struct level_work){ .n = 0 };
 }
 
@@ -66,7 +67,8 @@ static enum status levels_create(struct level_work *l, const struct work *w,
 }
 
 enum status level_work_init(struct level_work *l, const struct work *w,
-                            const struct level_field *fields, int n, double tolerance)
+                            const struct level_field *fields, const double *names, int n,
+                            double tolerance)
 {
 	const size_t all = (size_t)n * w->n_surfaces;
 	int trimmed = 0;
@@ -80,9 +82,12 @@ enum status level_work_init(struct level_work *l, const struct work *w,
 	l->levels = calloc(all, sizeof *l->levels);
 	l->results = calloc(all, sizeof *l->results);
 	l->first = calloc((size_t)w->n_surfaces + 1, sizeof *l->first);
-	if (!l->levels || !l->results || !l->first)
+	l->heads = calloc((size_t)n, sizeof *l->heads);
+	if (!l->levels || !l->results || !l->first || !l->heads)
 		return report_error(&w->report, ST_RESOURCE, "no memory for %d curves on surfaces",
 		                    n);
+	for (int i = 0; i < n; i++)
+		l->heads[i] = (struct level_head){ fields[i].kind, names[i] };
 	enum status st = levels_create(l, w, fields, tolerance);
 	size_t wanted = (UNITS_WANTED + all - 1) / all;
 	for (int s = 0; st == ST_OK && s < w->n_surfaces; s++) {
@@ -108,10 +113,14 @@ enum status level_work_unit(const struct level_work *l, struct work *w, size_t u
 	const size_t patches = level_patches(level), end = (group + 1) * patches / groups;
 	struct text bytes = { 0 };
 	enum status st = ST_OK;
+	level_head_add(&bytes, &l->heads[unit / each]);
+	const size_t head = bytes.n;
 	for (size_t p = group * patches / groups; st == ST_OK && p < end; p++)
 		st = work_cancelled(w) ? ST_CANCELLED : level_patch(level, p, &bytes);
+	if (st == ST_OK && bytes.failed)
+		st = ST_RESOURCE;
 	if (st == ST_OK)
-		st = work_put(w, unit, bytes.s ? bytes.s : "", bytes.n);
+		st = work_put(w, unit, bytes.s, bytes.n > head ? bytes.n : 0);
 	else if (st == ST_RESOURCE)
 		st = report_error(&w->report, st, "no memory to trace curves");
 	text_finish(&bytes);
@@ -128,8 +137,14 @@ static enum status surface_join(struct level_work *l, struct work *w, int i, int
 	enum status st =
 	        blocks && sizes ? ST_OK
 	                        : report_error(&w->report, ST_RESOURCE, "no memory to join curves");
-	for (size_t g = 0; st == ST_OK && g < groups; g++)
+	for (size_t g = 0; st == ST_OK && g < groups; g++) {
 		st = work_get(w, unit + g, &blocks[g], &sizes[g]);
+		size_t head = st == ST_OK ? level_head_size(blocks[g], sizes[g]) : 0;
+		if (head) {
+			blocks[g] += head;
+			sizes[g] -= head;
+		}
+	}
 	if (st == ST_OK)
 		st = level_join(l->levels[at], blocks, sizes, groups, &l->results[at], &w->report);
 	free(blocks);

@@ -2,7 +2,7 @@
 #ifndef BATTEN_LEVEL_WORK_H
 #define BATTEN_LEVEL_WORK_H
 
-#include "level.h"
+#include "level_look.h"
 #include "worker.h"
 
 /* Every field on every surface of a worker. */
@@ -11,12 +11,15 @@ struct level_work {
 	struct level **levels;        /* owned, n x n_surfaces, field by field; some borrow from
 	                                 others before them */
 	size_t *first;                /* owned: first unit of each surface within a field's */
+	struct level_head *heads;     /* owned, n: what the units of each field begin with */
 	struct level_result *results; /* owned, n x n_surfaces; filled by level_work_join */
 };
 
-/* Errors: those of level_create. The tolerance in u,v is that of the parameters. */
+/* names: of each field its value as the user has it, told to who looks on. The tolerance in u,v is that of
+ * the parameters. Errors: those of level_create. */
 enum status level_work_init(struct level_work *l, const struct work *w,
-                            const struct level_field *fields, int n, double tolerance);
+                            const struct level_field *fields, const double *names, int n,
+                            double tolerance);
 void level_work_finish(struct level_work *l); /* a zeroed one is fine */
 
 size_t level_work_units(const struct level_work *l);

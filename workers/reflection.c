@@ -189,7 +189,7 @@ static enum status levels_begin(struct work *w, struct state *s)
 		fields[i] = first;
 		fields[i].point = vec3_along(first.point, i - 0.5 * (s->n - 1), step);
 	}
-	st = level_work_init(&s->level, w, fields, s->n, s->tolerance);
+	st = level_work_init(&s->level, w, fields, s->numbers, s->n, s->tolerance);
 	free(fields);
 	return st;
 }

@@ -40,6 +40,7 @@ void desk_views_place(struct desk *d)
 		struct view_state *v = &d->tiles[i].view;
 		v->theme = d->theme;
 		v->scale = d->scale;
+		v->place = i;
 		v->quantity = n == N_QUANTITIES ? i : -1;
 		v->axes = n == 1;
 		v->camera.width = (int)d->tiles[i].box.width;

@@ -47,7 +47,8 @@ void view_destroy(struct view *v)
 	programs_finish(&v->programs);
 	target_finish(&v->fine);
 	target_finish(&v->plain);
-	target_finish(&v->still);
+	for (int i = 0; i < VIEW_PLACES; i++)
+		target_finish(&v->stills[i].target);
 	shapes_finish(&v->shapes);
 	maps_finish(v);
 	results_finish(v);
@@ -259,7 +260,7 @@ static void copy(const struct target *from, GLuint to, int x, int y)
 static uint64_t picture_of(const struct drawing *d)
 {
 	struct {
-		uint64_t world;
+		uint64_t world, arrived; /* of results whose jobs run: their files */
 		struct camera camera;
 		double scale;
 		int theme, only, quantity, chosen, hover;
@@ -281,31 +282,45 @@ static uint64_t picture_of(const struct drawing *d)
 	x.quantity = s->quantity;
 	x.chosen = s->chosen;
 	x.hover = s->hover_point < 0 ? s->hover_thing : 0;
+	for (int k = 0; k < world_overlays(d->world); k++) {
+		const struct overlay *o = world_overlay(d->world, k);
+		int64_t stamp[4] = { (int64_t)x.arrived };
+		if (o->job && o->file && file_stamp(o->file, stamp + 1))
+			x.arrived = checksum_bytes(stamp, sizeof stamp);
+	}
 	return checksum_bytes(&x, sizeof x) | 1;
+}
+
+static struct still *still_of(const struct drawing *d)
+{
+	const int place = d->state->place;
+	return &d->view->stills[place > 0 && place < VIEW_PLACES ? place : 0];
 }
 
 /* At rest the things' picture is kept: what follows the mouse is drawn over a copy. */
 static enum status draw_at_rest(struct drawing *d)
 {
 	struct view *v = d->view;
+	struct still *still = still_of(d);
 	const uint64_t picture = picture_of(d);
 	const int width = d->camera.width, height = d->camera.height;
-	if (v->still_of == picture && v->still.width == width && v->still.height == height) {
-		d->has_image = v->still_is_image;
+	if (still->of == picture && still->target.width == width &&
+	    still->target.height == height) {
+		d->has_image = still->is_image;
 		return ST_OK;
 	}
-	v->still_of = 0;
+	still->of = 0;
 	enum status st = target_init(&v->fine, width, height, SAMPLES, d->report);
 	if (st == ST_OK)
-		st = target_init(&v->still, width, height, 0, d->report);
+		st = target_init(&still->target, width, height, 0, d->report);
 	if (st != ST_OK)
 		return st;
 	glBindFramebuffer(GL_FRAMEBUFFER, v->fine.frame);
 	st = draw_things(d);
-	copy(&v->fine, v->still.frame, 0, 0);
+	copy(&v->fine, still->target.frame, 0, 0);
 	if (st == ST_OK && !d->more) {
-		v->still_of = picture;
-		v->still_is_image = d->has_image;
+		still->of = picture;
+		still->is_image = d->has_image;
 	}
 	return st;
 }
@@ -317,7 +332,7 @@ static enum status draw_all(struct drawing *d)
 	if (st == ST_OK && !d->state->moving) {
 		st = draw_at_rest(d);
 		if (st == ST_OK)
-			copy(&v->still, v->plain.frame, 0, 0);
+			copy(&still_of(d)->target, v->plain.frame, 0, 0);
 		glBindFramebuffer(GL_FRAMEBUFFER, v->plain.frame);
 		glViewport(0, 0, d->camera.width, d->camera.height);
 	} else if (st == ST_OK) {
@@ -354,16 +369,6 @@ enum status view_draw(struct view *v, const struct world *w, const struct view_s
 	glDisable(GL_BLEND);
 	glDisable(GL_DEPTH_TEST);
 	return st;
-}
-
-bool view_arriving(const struct view *v)
-{
-	bool arriving = false;
-	for (int i = 0; i < v->n_maps; i++)
-		arriving |= v->maps[i].used && v->maps[i].arriving;
-	for (int i = 0; i < v->n_images; i++)
-		arriving |= v->images[i].arriving;
-	return arriving;
 }
 
 bool view_key(const struct view *v, struct key *out)

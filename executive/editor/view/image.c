@@ -70,7 +70,7 @@ static void update(struct image *im, struct rgb ground)
 		return;
 	memcpy(im->stamp, stamp, sizeof stamp);
 	plate_finish(&im->plate);
-	if (live_read(&p, im->file, &im->arriving) != ST_OK)
+	if (live_read(&p, im->file) != ST_OK)
 		return;
 	cairo_surface_t *surface =
 	        cairo_image_surface_create(CAIRO_FORMAT_ARGB32, p.width, p.height);
@@ -93,7 +93,6 @@ bool images_draw(struct drawing *d)
 		if (!im)
 			continue;
 		update(im, d->ground);
-		d->more |= im->arriving;
 		if (!im->plate.texture)
 			continue;
 		/* as large as fits, but no larger than its own pixels twice */

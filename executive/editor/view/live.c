@@ -1,4 +1,4 @@
-/* live.c - an image result, whole or as far as its job has come. */
+/* live.c - results, whole or as far as their job has come. */
 #include "live.h"
 
 #include <math.h>
@@ -126,10 +126,9 @@ static enum status take_part(struct exr_picture *out, const struct part_glance *
 	return st;
 }
 
-enum status live_read(struct exr_picture *out, const char *path, bool *arriving)
+enum status live_read(struct exr_picture *out, const char *path)
 {
 	struct part_glance g;
-	*arriving = false;
 	if (exr_read(out, path, &report_none) == ST_OK)
 		return ST_OK;
 	enum status st = part_look(&g, path, &report_none);
@@ -137,6 +136,17 @@ enum status live_read(struct exr_picture *out, const char *path, bool *arriving)
 		return st;
 	st = take_part(out, &g);
 	part_glance_finish(&g);
-	*arriving = st == ST_OK;
+	return st;
+}
+
+enum status live_lines(const char *path, level_take *take, void *data)
+{
+	struct part_glance g;
+	enum status st = part_look(&g, path, &report_none);
+	if (st != ST_OK)
+		return st;
+	for (size_t i = 0; i < g.n && st == ST_OK; i++)
+		st = level_look(g.found[i].bytes, g.found[i].n, take, data);
+	part_glance_finish(&g);
 	return st;
 }

@@ -162,8 +162,6 @@ static enum status draw_to(struct sheet *s, struct view *v, const struct world *
 	for (int k = 0; k < 10000 && more && st == ST_OK; k++) {
 		glBindFramebuffer(GL_FRAMEBUFFER, t.frame);
 		st = view_draw(v, w, state, 0, 0, s->width, s->height, &more, r);
-		if (more && view_arriving(v))
-			break;
 	}
 	glBindFramebuffer(GL_FRAMEBUFFER, t.frame);
 	if (st == ST_OK)

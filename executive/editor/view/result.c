@@ -2,7 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "live.h"
 #include "number.h"
+#include "path.h"
 #include "result.h"
 #include "ticks.h"
 #include "view_private.h"
@@ -48,10 +50,9 @@ static bool is_line(const struct entity *e)
 	       (e->kind == ENTITY_CURVE_ON_SURFACE && (e->space.order > 0 || e->surface >= 0));
 }
 
-static struct result_group *find_group(struct result *r, const struct entity *e)
+/* Lines of one value; named: they are labelled with it. */
+static struct result_group *find_group(struct result *r, double value, bool named, bool angle)
 {
-	double value;
-	const char *name = result_value(e, &value);
 	for (int i = 0; i < r->n; i++)
 		if (r->groups[i].value == value)
 			return &r->groups[i];
@@ -63,8 +64,7 @@ static struct result_group *find_group(struct result *r, const struct entity *e)
 	number_for_reader(text, value, 4);
 	struct result_group *g = &all[r->n];
 	*g = (struct result_group){ .value = value };
-	g->label = text_print("%s%s", name ? text : "",
-	                      name && !strcmp(name, "angle") ? "\u00b0" : "");
+	g->label = text_print("%s%s", named ? text : "", named && angle ? "\u00b0" : "");
 	if (!g->label)
 		return NULL;
 	r->n++;
@@ -105,14 +105,25 @@ static struct vec3 first_point(const struct model *m)
 	return vec3(0, 0, 0);
 }
 
-static enum status take_model(struct result *r, const struct model *m, double tolerance)
+static void load_groups(struct result *r)
+{
+	qsort(r->groups, (size_t)r->n, sizeof *r->groups, by_value);
+	choose_strong(r);
+	for (int i = 0; i < r->n; i++)
+		gpu_poly_load(&r->groups[i].gpu, &r->groups[i].poly);
+}
+
+static enum status take_model(struct result *r, const struct model *m)
 {
 	const struct vec3 origin = first_point(m);
+	const double tolerance = r->tolerance;
 	for (int i = 0; i < m->n; i++) {
 		const struct entity *e = &m->entities[i];
 		if (!is_line(e))
 			continue;
-		struct result_group *g = find_group(r, e);
+		double value;
+		const char *name = result_value(e, &value);
+		struct result_group *g = find_group(r, value, name, name && !strcmp(name, "angle"));
 		if (!g)
 			return ST_RESOURCE;
 		if (!g->poly.n)
@@ -127,14 +138,46 @@ static enum status take_model(struct result *r, const struct model *m, double to
 		if (g->poly.failed)
 			return ST_RESOURCE;
 	}
-	qsort(r->groups, (size_t)r->n, sizeof *r->groups, by_value);
-	choose_strong(r);
-	for (int i = 0; i < r->n; i++)
-		gpu_poly_load(&r->groups[i].gpu, &r->groups[i].poly);
+	load_groups(r);
 	return ST_OK;
 }
 
-/* A file that cannot be read has no lines until it changes: its job may not be done. */
+/* A piece of a line, while others are at work; named as the whole one will be. */
+static enum status take_piece(void *data, const struct level_head *head, const struct curve *c)
+{
+	static const bool named[N_LEVEL_KINDS] = { [LEVEL_PLANE] = true,
+		                                   [LEVEL_ISOPHOTE] = true,
+		                                   [LEVEL_CYLINDER] = true,
+		                                   [LEVEL_HIGHLIGHT] = true,
+		                                   [LEVEL_REFLECTION] = true };
+	struct result *r = data;
+	struct result_group *g =
+	        find_group(r, head->value, named[head->kind], head->kind == LEVEL_ISOPHOTE);
+	if (!g)
+		return ST_RESOURCE;
+	if (!g->poly.n)
+		poly_reset(&g->poly, curve_point(c, 0));
+	poly_add_curve(&g->poly, c, 0, r->tolerance);
+	return g->poly.failed ? ST_RESOURCE : ST_OK;
+}
+
+/* A file that cannot be read has no lines until it changes: its job may not have begun. */
+static enum status read_lines(struct result *r)
+{
+	struct model m;
+	enum status st = ST_OK;
+	if (path_has_suffix(r->file, ".part")) {
+		st = live_lines(r->file, take_piece, r);
+		load_groups(r);
+		return st == ST_RESOURCE ? st : ST_OK;
+	}
+	if (model_read(&m, r->file, NULL, &report_none) != ST_OK)
+		return ST_OK;
+	st = take_model(r, &m);
+	model_finish(&m);
+	return st;
+}
+
 static enum status update(struct result *r, double tolerance)
 {
 	int64_t stamp[3] = { 0 };
@@ -144,18 +187,13 @@ static enum status update(struct result *r, double tolerance)
 	    r->tolerance > 0)
 		return ST_OK;
 	char *file = r->file;
-	struct model m;
 	r->file = NULL;
 	result_finish(r);
 	r->file = file;
 	r->used = true;
 	r->tolerance = tolerance;
 	memcpy(r->stamp, stamp, sizeof stamp);
-	if (model_read(&m, file, NULL, &report_none) != ST_OK)
-		return ST_OK;
-	enum status st = take_model(r, &m, tolerance);
-	model_finish(&m);
-	return st;
+	return read_lines(r);
 }
 
 static struct result *find(struct view *v, const char *file)
@@ -270,9 +308,12 @@ enum status results_draw(struct drawing *d)
 		const struct overlay *o = world_overlay(d->world, k);
 		const struct shape *x = shapes_find(&v->shapes, o->thing);
 		bool shown = !o->thing, solid = false;
-		for (int i = 0; i < d->n_shown && !shown; i++) {
-			shown = d->shown[i] == x;
-			solid = d->things[i]->display.look != LOOK_WIRE;
+		for (int i = 0; i < d->n_shown; i++) {
+			if (o->thing && d->shown[i] != x)
+				continue;
+			shown = true;
+			solid |= d->things[i]->entity.kind == ENTITY_SURFACE &&
+			         d->things[i]->display.look != LOOK_WIRE;
 		}
 		if (o->kind != OVERLAY_LINES || !shown || !o->file)
 			continue;

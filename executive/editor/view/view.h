@@ -15,11 +15,14 @@ enum view_standard {
 	VIEW_BOTTOM
 };
 
+enum { VIEW_PLACES = 8 };
+
 /* What a place in the window shows. Cameras are changed by the functions below, in logical px. */
 struct view_state {
 	struct camera camera;
 	enum theme theme;
 	double scale; /* device px a logical px */
+	int place; /* of several drawn one after another each keeps its picture: 0 to VIEW_PLACES - 1 */
 	bool moving;  /* being dragged: at most about 100,000 triangles, no multisampling */
 	int only;     /* id of the one thing shown, 0: all that are on */
 	int quantity; /* enum quantity for LOOK_MAP, -1: as the overlay says */
@@ -40,7 +43,8 @@ enum status view_create(struct view **out, const struct report *r);
 void view_destroy(struct view *v);
 
 /* Draw into the framebuffer bound now, rectangle in device px from the lower left corner.
- * *more: something coarser was drawn than can be, or results are still arriving: draw again at rest. */
+ * *more: something coarser was drawn than can be: draw again at rest. Results of a running job are drawn as
+ * far as its file has come; draw again when there is news of the job. */
 enum status view_draw(struct view *v, const struct world *w, const struct view_state *s, int x,
                       int y, int width, int height, bool *more, const struct report *r);
 

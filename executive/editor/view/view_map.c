@@ -126,10 +126,10 @@ static enum status own_values(struct map *m, const struct surface *s)
 	return st;
 }
 
-static enum status file_values(struct map *m, const char *path, bool *arriving)
+static enum status file_values(struct map *m, const char *path)
 {
 	struct exr_picture p;
-	enum status st = live_read(&p, path, arriving);
+	enum status st = live_read(&p, path);
 	if (st != ST_OK)
 		return st;
 	m->width = p.width;
@@ -159,12 +159,11 @@ static enum status update(struct map *m, const struct shape *x, const char *file
 	map_empty(m);
 	memcpy(m->stamp, stamp, sizeof stamp);
 	m->changes++;
-	m->arriving = false;
 	enum status st = ST_OK;
 	if (file) {
 		m->file = strdup(file);
 		st = m->file ? ST_OK : ST_RESOURCE;
-		if (st == ST_OK && file_values(m, file, &m->arriving) != ST_OK)
+		if (st == ST_OK && file_values(m, file) != ST_OK)
 			m->width = m->height = 1; /* known to have no values until it changes */
 	} else {
 		st = own_values(m, &x->surface);
@@ -305,8 +304,6 @@ enum status maps_update(struct drawing *d)
 		}
 		struct map *m = find_map(v, f->id, true);
 		st = m ? update(m, d->shown[i], o ? o->file : NULL) : ST_RESOURCE;
-		if (st == ST_OK && m->arriving)
-			d->more = true;
 	}
 	int n = 0;
 	for (int i = 0; i < v->n_maps; i++)

@@ -23,7 +23,6 @@ struct map {
 	float *values[N_QUANTITIES]; /* owned; rows from v's end down; NULL: not in the file */
 	float *weights;              /* owned; area of each sample */
 	GLuint texture[N_QUANTITIES];
-	bool arriving; /* of a part file: more will come */
 	bool used;
 	unsigned changes; /* grows when values arrive */
 };
@@ -56,7 +55,7 @@ struct image {
 	char *file; /* owned */
 	int64_t stamp[3];
 	struct plate plate;
-	bool arriving, used;
+	bool used;
 };
 
 enum { LABEL_ROOM = 48 };
@@ -69,12 +68,17 @@ struct text_plate {
 	bool used;
 };
 
+/* The things at rest in one place. */
+struct still {
+	struct target target;
+	uint64_t of; /* what it shows; 0: nothing */
+	bool is_image;
+};
+
 struct view {
 	struct programs programs;
 	struct target fine, plain; /* with and without multisampling */
-	struct target still;       /* the things at rest */
-	uint64_t still_of;         /* what it shows; 0: nothing */
-	bool still_is_image;
+	struct still stills[VIEW_PLACES];
 	struct shapes shapes;
 	struct map *maps;         /* owned */
 	struct result *results;   /* owned */
@@ -176,8 +180,6 @@ enum status drawing_init(struct drawing *d, struct view *v, const struct world *
 void drawing_finish(struct drawing *d);
 /* The theme whose lines have more contrast with that ground. */
 enum theme ground_theme(struct rgb ground);
-/* Something that is shown comes from a part file. */
-bool view_arriving(const struct view *v);
 
 /* A file's time, size and i-node; false: it is not there. */
 bool file_stamp(const char *path, int64_t stamp[3]);

@@ -29,16 +29,15 @@ void joint_end_get(const struct joint *j, size_t end, struct joint_end *out)
 	level_globalise(j->level->surface, j->patch[end / 2], p->uv[e], out->uv);
 }
 
-/* One patch's bytes at *at; false where they are not whole. */
-static bool header_read(const struct level *l, const char **at, const char *end, int last,
-                        struct patch_header *h)
+bool level_header_read(size_t patches, const char **at, const char *end, int last,
+                       struct patch_header *h)
 {
 	if ((size_t)(end - *at) < sizeof *h)
 		return false;
 	memcpy(h, *at, sizeof *h);
 	*at += sizeof *h;
 	if (memcmp(h->magic, PATCH_MAGIC, sizeof h->magic) != 0 || h->patch <= last ||
-	    (size_t)h->patch >= level_patches(l) || h->n_strands < 0 || h->n_pieces < 0 ||
+	    (size_t)h->patch >= patches || h->n_strands < 0 || h->n_pieces < 0 ||
 	    h->n_undecided < 0)
 		return false;
 	size_t left = (size_t)(end - *at);
@@ -50,7 +49,7 @@ static bool header_read(const struct level *l, const char **at, const char *end,
 	               left;
 }
 
-static bool strand_valid(const struct strand *s, const struct patch_header *h)
+bool level_strand_valid(const struct strand *s, const struct patch_header *h)
 {
 	for (int e = 0; e < 2; e++) {
 		const struct strand_end *x = &s->end[e];
@@ -101,13 +100,13 @@ static enum status blocks_read(struct joint *j, const char *const *blocks, const
 		const char *at = blocks[i], *end = at + sizes[i];
 		while (at < end) {
 			struct patch_header h;
-			if (!header_read(j->level, &at, end, last, &h))
+			if (!level_header_read(level_patches(j->level), &at, end, last, &h))
 				return ST_INTERNAL;
 			last = h.patch;
 			for (int k = 0; k < h.n_strands; k++, at += sizeof(struct strand)) {
 				struct strand s;
 				memcpy(&s, at, sizeof s);
-				if (!strand_valid(&s, &h))
+				if (!level_strand_valid(&s, &h))
 					return ST_INTERNAL;
 				s.first += (int)j->n_pieces;
 				if (fill) {

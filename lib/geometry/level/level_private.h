@@ -353,6 +353,12 @@ struct patch_header {
 };
 #define PATCH_MAGIC "level 3"
 
+/* level_join.c: the header of one patch's bytes at *at, behind `last` of all `patches`; false where they are
+ * not whole. And whether a strand of it is one. */
+bool level_header_read(size_t patches, const char **at, const char *end, int last,
+                       struct patch_header *h);
+bool level_strand_valid(const struct strand *s, const struct patch_header *h);
+
 enum link_kind { LINK_NONE, LINK_STRAND, LINK_END };
 
 /* Where a strand's end leads. An end is 2 strand + 0 or 1. */
