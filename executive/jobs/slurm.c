@@ -289,6 +289,7 @@ static void on_exited(void *data, int64_t id, const struct launcher_exit *srun)
 	struct launcher_exit e = *srun;
 	bool good = j && j->finished && !e.status && !e.signal;
 	bool ours = j && (j->killed || j->want == WANT_END);
+	bool heard = !j || j->want != WANT_END || j->is == WANT_END;
 	char *words = j && !good && !ours ? last_words(j) : NULL;
 	slurm_end(&e, words ? words : "");
 	free(words);
@@ -296,7 +297,7 @@ static void on_exited(void *data, int64_t id, const struct launcher_exit *srun)
 		e.lost = false;
 		e.why[0] = '\0';
 	}
-	if (e.lost && j)
+	if (j && (e.lost || (!heard && !good)))
 		slurm_sweep(s, j, &e);
 	else
 		s->sink.exited(s->sink.data, id, &e);
@@ -376,7 +377,8 @@ enum status slurm_create(struct slurm **out, uv_loop_t *loop, const struct proje
 	};
 	uv_timer_init(loop, &s->look);
 	uv_timer_init(loop, &s->sweep);
-	s->look.data = s->sweep.data = s;
+	uv_timer_init(loop, &s->again);
+	s->look.data = s->sweep.data = s->again.data = s;
 	*out = s;
 	return ST_OK;
 }
@@ -400,6 +402,7 @@ void slurm_close(struct slurm *s)
 	}
 	uv_close((uv_handle_t *)&s->look, NULL);
 	uv_close((uv_handle_t *)&s->sweep, NULL);
+	uv_close((uv_handle_t *)&s->again, NULL);
 	orders_close(s->orders);
 	local_close(s->local);
 }

@@ -24,6 +24,7 @@ struct slurm_job {
 	bool busy;       /* a program of Slurm is at work on it */
 	bool held;       /* stopped while it waited: Slurm does not start it */
 	enum slurm_want want, is;
+	int refusals;  /* of the order to get from is to want */
 	bool sweeping; /* srun is gone, what it started is being ended */
 	int sweeps;    /* looks so far whether that is gone */
 	struct launcher_exit exit;
@@ -40,7 +41,7 @@ struct slurm {
 	struct slurm_job *jobs;
 	char *srun;   /* owned; NULL: not installed */
 	char *prefix; /* owned; of the names of this project's jobs */
-	uv_timer_t look, sweep;
+	uv_timer_t look, sweep, again;
 	uint64_t look_ms;
 	bool looking;
 };

@@ -14,7 +14,10 @@ enum {
 	LOOK_LAST_MS = 10000,
 	HELLO_MS = 30000,
 	SWEEP_MS = 150,
-	SWEEPS_MAX = 20
+	SWEEPS_MAX = 20,
+	AGAIN_FIRST_MS = 100,
+	AGAIN_LAST_MS = 1600,
+	AGAIN_MAX = 12
 };
 
 static void on_sweep(uv_timer_t *t);
@@ -139,6 +142,25 @@ void slurm_look_soon(struct slurm *s)
 
 static void job_work(struct slurm *s, struct slurm_job *j);
 
+static void on_again(uv_timer_t *t)
+{
+	struct slurm *s = t->data;
+	for (struct slurm_job *j = s->jobs; j; j = j->next)
+		job_work(s, j);
+}
+
+/* Slurm takes no signal while the one before is on its way to the node, and none at all while its
+ * controller starts: the order is given again. False: often enough. */
+static bool job_works_again(struct slurm *s, struct slurm_job *j)
+{
+	if (j->refusals >= AGAIN_MAX)
+		return false;
+	uint64_t ms = (uint64_t)AGAIN_FIRST_MS << j->refusals++;
+	if (!uv_is_active((uv_handle_t *)&s->again))
+		uv_timer_start(&s->again, on_again, ms < AGAIN_LAST_MS ? ms : AGAIN_LAST_MS, 0);
+	return true;
+}
+
 static void on_worked(void *data, int64_t tag, int status, const char *output)
 {
 	struct slurm *s = data;
@@ -152,11 +174,16 @@ static void on_worked(void *data, int64_t tag, int status, const char *output)
 	j->busy = false;
 	if (status && did != WANT_END && hold) {
 		j->running = true; /* it began meanwhile: it is stopped where it is */
-	} else if (status) {
+	} else if (status && j->want == did) {
+		if (job_works_again(s, j))
+			return;
 		s->below->note(s->below->data, id, "warning", "Slurm does not take the order");
-		j->is = j->want; /* its end will be seen, or the next order does */
+		j->is = did; /* its end will be seen, or the next order does */
 		return;
-	} else {
+	} else if (status && j->want == j->is) {
+		s->sink.stopped(s->sink.data, id, j->is == WANT_STOP); /* as if never asked */
+	} else if (!status) {
+		j->refusals = 0;
 		j->held = hold && did == WANT_STOP;
 		j->is = did;
 		if (did != WANT_END)
@@ -195,6 +222,8 @@ void slurm_want(struct slurm *s, struct slurm_job *j, enum slurm_want want)
 {
 	if (j->want == WANT_END)
 		return;
+	if (j->want != want)
+		j->refusals = 0;
 	j->want = want;
 	job_work(s, j);
 }

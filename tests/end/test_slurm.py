@@ -137,13 +137,26 @@ def test_suspend_activate_and_kill_reach_the_node(project):
     same_as_here(project)
 
 
-def test_a_suspended_job_is_killed(project):
+def test_orders_on_each_others_heels(project):
+    """Slurm takes no signal while the one before is on its way: it is given again."""
     slurm = with_cluster(project)
-    job = start(project)
+    for _ in range(8):
+        job = start(project)
+        project.run("batten", "suspend", job)
+        project.run("batten", "kill", job)
+        assert project.jobs()[job]["state"] == "killed"
+        end.until(lambda: not remote_workers(slurm) and not ours(slurm), "nothing is left")
+    (job,) = project.submit("raytrace", TEAPOT, "--size", "4000x4000", "--on", "slurm")
+    (worker,) = end.until(lambda: project.jobs()[job]["done"] and remote_workers(slurm), "it runs")
+    for _ in range(4):
+        project.run("batten", "suspend", job)
+        project.run("batten", "activate", job)
+    end.until(lambda: end.process_state(worker) != "T", "it goes on")
+    assert project.jobs()[job]["state"] == "running"
     project.run("batten", "suspend", job)
+    end.until(lambda: end.process_state(worker) == "T", "it is stopped")
+    assert "does not take" not in project.run("batten", "log", job).stdout
     project.run("batten", "kill", job)
-    assert project.jobs()[job]["state"] == "killed"
-    end.until(lambda: not remote_workers(slurm) and not ours(slurm), "nothing is left")
 
 
 def test_why_it_waits_is_said(project):
