@@ -150,7 +150,7 @@ static int wait_for(pid_t pid)
 	return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-static struct ran run_list(int resource, unsigned long limit, const char *program, va_list list)
+static struct ran run_within(int resource, unsigned long limit, const char *program, va_list list)
 {
 	struct ran r = { 0 };
 	char out[] = "/tmp/batten-out-XXXXXX", err[] = "/tmp/batten-err-XXXXXX";
@@ -176,11 +176,16 @@ static struct ran run_list(int resource, unsigned long limit, const char *progra
 	return r;
 }
 
+struct ran run_list(const char *program, va_list list)
+{
+	return run_within(0, 0, program, list);
+}
+
 struct ran run_hand(const char *program, ...)
 {
 	va_list list;
 	va_start(list, program);
-	struct ran r = run_list(0, 0, program, list);
+	struct ran r = run_list(program, list);
 	va_end(list);
 	return r;
 }
@@ -189,7 +194,7 @@ struct ran run_limited(int resource, unsigned long limit, const char *program, .
 {
 	va_list list;
 	va_start(list, program);
-	struct ran r = run_list(resource, limit, program, list);
+	struct ran r = run_within(resource, limit, program, list);
 	va_end(list);
 	return r;
 }

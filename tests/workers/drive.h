@@ -42,6 +42,7 @@ void ran_finish(struct ran *r);
 
 /* program, "NAME=VALUE"... (environment), then arguments; ended by NULL. */
 struct ran run_hand(const char *program, ...);
+struct ran run_list(const char *program, va_list list);
 
 /* Like it, with a resource limited: RLIMIT_FSIZE plays a disk that is full. */
 struct ran run_limited(int resource, unsigned long limit, const char *program, ...);

@@ -1,5 +1,5 @@
 /* test_contours.c - the contours worker against circles, an annulus, and Wigley's hull by formula. */
-#include "drive.h"
+#include "bodies.h"
 
 #include <math.h>
 #include <signal.h>
@@ -7,31 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base.h"
-#include "construct.h"
 #include "json.h"
 
 /* Wigley's hull: y = (B/2) (1 - (2x/L)^2) (1 - (z/T)^2), z from -T to 0. */
 static const double length = 100, beam = 10, draught = 6.25;
 
 static char *contours;
-
-static void model_put(struct model *m, struct surface *s)
-{
-	struct entity e = { .kind = ENTITY_SURFACE, .surface = -1, .geometry = *s };
-	assert_int_equal(model_add(m, &e), ST_OK);
-}
-
-static void write_model(const char *path, struct surface *s, int n)
-{
-	struct model m;
-	model_init(&m);
-	for (int i = 0; i < n; i++)
-		model_put(&m, &s[i]);
-	model_number(&m);
-	assert_int_equal(base_write(&m, path, NULL), ST_OK);
-	model_finish(&m);
-}
 
 /* One side of the hull, exact as a biquadratic patch. */
 static struct surface wigley(double side)
@@ -59,40 +40,13 @@ static int enter(void **state)
 	static struct place place;
 	*state = &place;
 	place_enter(&place);
-	struct surface s[2];
-	assert_int_equal(make_sphere(&s[0], vec3(0, 0, 0), 2), ST_OK);
-	write_model("sphere.base", s, 1);
-	assert_int_equal(make_torus(&s[0], vec3(1, 2, 3), 20, 5), ST_OK);
-	write_model("torus.base", s, 1);
-	s[0] = wigley(1);
-	s[1] = wigley(-1);
-	write_model("wigley.base", s, 2);
-	s[0] = wigley(-1);
-	write_model("half.base", s, 1);
-	const struct vec3 point[4] = { { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } };
-	assert_int_equal(make_bilinear(&s[0], point), ST_OK);
-	write_model("point.base", s, 1);
+	body_write("sphere.base", NULL, body_sphere(vec3(0, 0, 0), 2));
+	body_write("torus.base", NULL, body_torus(vec3(1, 2, 3), 20, 5));
+	bodies_write("wigley.base", NULL, (struct surface[]){ wigley(1), wigley(-1) }, 2);
+	body_write("half.base", NULL, wigley(-1));
+	const struct vec3 p = vec3(1, 1, 1);
+	body_write("point.base", NULL, body_corners(p, p, p, p));
 	return 0;
-}
-
-static int leave(void **state)
-{
-	place_leave(*state);
-	return 0;
-}
-
-#define RUN(...)                                                                                   \
-	do {                                                                                       \
-		struct ran ran_ = run_hand(contours, __VA_ARGS__, NULL);                           \
-		if (ran_.exit_status)                                                              \
-			fail_msg("exit status %d: %s", ran_.exit_status, ran_.err);                \
-		ran_finish(&ran_);                                                                 \
-	} while (0)
-
-static void near(double a, double b, double tolerance)
-{
-	if (!(fabs(a - b) <= tolerance))
-		fail_msg("%.17g is not %.17g within %g", a, b, tolerance);
 }
 
 /* A result read back: its model, its figures, the row of each plane. */
@@ -105,9 +59,7 @@ static struct result result_read(const char *path)
 {
 	struct result r;
 	assert_int_equal(model_read(&r.m, path, NULL, NULL), ST_OK);
-	const char *text = model_get_attribute(&r.m, "figures");
-	assert_non_null(text);
-	assert_int_equal(json_parse_object(text, strlen(text), "figures", &r.figures, NULL), ST_OK);
+	r.figures = figures_of(&r.m);
 	r.levels = json_object_get(r.figures, "levels");
 	assert_non_null(r.levels);
 	return r;
@@ -145,8 +97,8 @@ static void expect_section(const json_t *o, double area, struct vec3 centroid, d
 static void test_circles(void **state)
 {
 	(void)state;
-	RUN("sphere.base", "--plane", "0,0,5", "--from", "-1.5", "--spacing", "0.5", "--count", "7",
-	    "--tolerance", "1e-6");
+	run_well(contours, "sphere.base", "--plane", "0,0,5", "--from", "-1.5", "--spacing", "0.5",
+	         "--count", "7", "--tolerance", "1e-6", NULL);
 	struct result r = result_read("sphere.contour");
 	assert_int_equal(json_array_size(r.levels), 7);
 	for (int i = 0; i < 7; i++) {
@@ -177,7 +129,8 @@ static void test_circles(void **state)
 static void test_askew(void **state)
 {
 	(void)state;
-	RUN("sphere.base", "--plane", "1,2,2", "--point", "0.3,0.3,0.3", "--tolerance", "1e-6");
+	run_well(contours, "sphere.base", "--plane", "1,2,2", "--point", "0.3,0.3,0.3",
+	         "--tolerance", "1e-6", NULL);
 	struct result r = result_read("sphere.contour");
 	const double d = 0.5, radius = sqrt(4 - d * d);
 	json_t *o = row(&r, 0, "plane", d, 1, 1);
@@ -189,14 +142,16 @@ static void test_askew(void **state)
 static void test_holes(void **state)
 {
 	(void)state;
-	RUN("torus.base", "--plane", "0,0,1", "--from", "5", "--tolerance", "1e-5");
+	run_well(contours, "torus.base", "--plane", "0,0,1", "--from", "5", "--tolerance", "1e-5",
+	         NULL);
 	struct result r = result_read("torus.contour");
 	json_t *o = row(&r, 0, "plane", 5, 2, 2);
 	const double outer = 20 + sqrt(21), inner = 20 - sqrt(21);
 	expect_section(o, M_PI * (outer * outer - inner * inner), vec3(1, 2, 5), 1e-2);
 	near(json_number(o, "girth", NAN), 2 * M_PI * 40, 1e-3);
 	result_finish(&r);
-	RUN("torus.base", "--plane", "1,0,0", "--from", "1", "--tolerance", "1e-5");
+	run_well(contours, "torus.base", "--plane", "1,0,0", "--from", "1", "--tolerance", "1e-5",
+	         NULL);
 	r = result_read("torus.contour");
 	expect_section(row(&r, 0, "plane", 1, 2, 2), 2 * M_PI * 25, vec3(1, 2, 3), 1e-3);
 	result_finish(&r);
@@ -205,8 +160,8 @@ static void test_holes(void **state)
 static void test_cylinders(void **state)
 {
 	(void)state;
-	RUN("sphere.base", "--cylinder", "0,0,1", "--from", "0.5", "--to", "1.5", "--count", "3",
-	    "--tolerance", "1e-6");
+	run_well(contours, "sphere.base", "--cylinder", "0,0,1", "--from", "0.5", "--to", "1.5",
+	         "--count", "3", "--tolerance", "1e-6", NULL);
 	struct result r = result_read("sphere.contour");
 	for (int i = 0; i < 3; i++) {
 		const double radius = 0.5 + 0.5 * i;
@@ -216,8 +171,8 @@ static void test_cylinders(void **state)
 	}
 	result_finish(&r);
 	/* off the axis, both in one: points lie on both surfaces */
-	RUN("sphere.base", "--cylinder", "0,0,1", "--point", "0.4,0.3,9", "--from", "0.8",
-	    "--tolerance", "1e-6");
+	run_well(contours, "sphere.base", "--cylinder", "0,0,1", "--point", "0.4,0.3,9", "--from",
+	         "0.8", "--tolerance", "1e-6", NULL);
 	r = result_read("sphere.contour");
 	row(&r, 0, "cylinder", 0.8, 2, 2);
 	for (int i = 1; i < r.m.n; i++)
@@ -239,8 +194,8 @@ static void test_wigley(void **state)
 		char input[32], output[32];
 		snprintf(input, sizeof input, "%s.base", files[f]);
 		snprintf(output, sizeof output, "%s.contour", files[f]);
-		RUN(input, "--stations", "9", "--waterlines", "-5:-1:5", "--buttocks", "1",
-		    "--tolerance", "1e-6");
+		run_well(contours, input, "--stations", "9", "--waterlines", "-5:-1:5",
+		         "--buttocks", "1", "--tolerance", "1e-6", NULL);
 		struct result r = result_read(output);
 		assert_int_equal(json_array_size(r.levels), 15);
 		for (int i = 0; i < 9; i++) {
@@ -266,8 +221,8 @@ static void test_wigley(void **state)
 static void test_draught(void **state)
 {
 	(void)state;
-	RUN("half.base", "--stations", "-30:30:3", "--draught", "-2", "--tolerance", "1e-6",
-	    "--csv", "--svg");
+	run_well(contours, "half.base", "--stations", "-30:30:3", "--draught", "-2", "--tolerance",
+	         "1e-6", "--csv", "--svg", NULL);
 	struct result r = result_read("half.contour");
 	const double t = draught, d = -2;
 	const double area = d - d * d * d / (3 * t * t) + 2 * t / 3;
@@ -293,10 +248,10 @@ static void test_draught(void **state)
 static void test_same_bytes(void **state)
 {
 	(void)state;
-	RUN("wigley.base", "--stations", "20", "--waterlines", "9", "--buttocks", "4", "--svg",
-	    "--csv", "--threads", "1", "-o", "one");
-	RUN("wigley.base", "--stations", "20", "--waterlines", "9", "--buttocks", "4", "--svg",
-	    "--csv", "--threads", "4", "-o", "four");
+	run_well(contours, "wigley.base", "--stations", "20", "--waterlines", "9", "--buttocks",
+	         "4", "--svg", "--csv", "--threads", "1", "-o", "one", NULL);
+	run_well(contours, "wigley.base", "--stations", "20", "--waterlines", "9", "--buttocks",
+	         "4", "--svg", "--csv", "--threads", "4", "-o", "four", NULL);
 	assert_same_file("one.contour", "four.contour");
 	assert_same_file("one.contour.svg", "four.contour.svg");
 	assert_same_file("one.sections.csv", "four.sections.csv");
@@ -329,11 +284,7 @@ static void test_killed(void **state)
 
 static void test_wrong(void **state)
 {
-	static const struct {
-		const char *input, *arguments[6];
-		int exit_status;
-		const char *says;
-	} wrong[] = {
+	static const struct refusal wrong[] = {
 		{ "sphere.base", { "--plane", "0,0,0" }, 2, "direction" },
 		{ "sphere.base", { "--plane", "1,0,0", "--cylinder", "1,0,0" }, 2, "one of them" },
 		{ "sphere.base", { "--stations", "0" }, 2, "FROM:TO:COUNT" },
@@ -354,15 +305,7 @@ static void test_wrong(void **state)
 		{ "point.base", { "--stations", "3" }, 1, "point" },
 	};
 	(void)state;
-	for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-		const char *const *a = wrong[i].arguments;
-		struct ran r = run_hand(contours, wrong[i].input, "-o", "wrong", a[0], a[1], a[2],
-		                        a[3], a[4], a[5], NULL);
-		if (r.exit_status != wrong[i].exit_status || !strstr(r.err, wrong[i].says))
-			fail_msg("case %zu: exit status %d: %s", i, r.exit_status, r.err);
-		assert_false(there("wrong.contour"));
-		ran_finish(&r);
-	}
+	expect_refusals(contours, wrong, sizeof wrong / sizeof *wrong, "wrong.contour");
 }
 
 int main(int argc, char **argv)
@@ -377,7 +320,7 @@ int main(int argc, char **argv)
 	if (argc < 2)
 		return 2;
 	contours = realpath(argv[1], NULL); /* tests work in another folder */
-	int rc = cmocka_run_group_tests(tests, enter, leave);
+	int rc = cmocka_run_group_tests(tests, enter, bodies_leave);
 	free(contours);
 	return rc;
 }

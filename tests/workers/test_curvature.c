@@ -1,12 +1,10 @@
 /* test_curvature.c - the curvature worker against closed forms: values, figures, places, pictures. */
-#include "drive.h"
+#include "bodies.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base.h"
-#include "construct.h"
 #include "exr.h"
 #include "json.h"
 
@@ -14,52 +12,16 @@ static const double major = 20, minor = 5;
 
 static char *curvature;
 
-static void write_model(const char *path, struct surface *s)
-{
-	struct model m;
-	struct entity e = { .kind = ENTITY_SURFACE, .surface = -1, .geometry = *s };
-	model_init(&m);
-	m.unit = strdup("mm");
-	assert_int_equal(model_add(&m, &e), ST_OK);
-	model_number(&m);
-	assert_int_equal(base_write(&m, path, NULL), ST_OK);
-	model_finish(&m);
-}
-
 static int enter(void **state)
 {
 	static struct place place;
 	*state = &place;
 	place_enter(&place);
-	struct surface s;
-	assert_int_equal(make_torus(&s, vec3(1, 2, 3), major, minor), ST_OK);
-	write_model("torus.base", &s);
-	assert_int_equal(make_sphere(&s, vec3(0, 0, 0), 2), ST_OK);
-	write_model("sphere.base", &s);
-	const struct vec3 corner[4] = { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 3, 0 }, { 4, 3, 2 } };
-	assert_int_equal(make_bilinear(&s, corner), ST_OK);
-	write_model("saddle.base", &s);
+	body_write("torus.base", "mm", body_torus(vec3(1, 2, 3), major, minor));
+	body_write("sphere.base", "mm", body_sphere(vec3(0, 0, 0), 2));
+	body_write("saddle.base", "mm",
+	           body_corners(vec3(0, 0, 0), vec3(4, 0, 0), vec3(0, 3, 0), vec3(4, 3, 2)));
 	return 0;
-}
-
-static int leave(void **state)
-{
-	place_leave(*state);
-	return 0;
-}
-
-#define RUN(...)                                                                                   \
-	do {                                                                                       \
-		struct ran r = run_hand(curvature, __VA_ARGS__, NULL);                             \
-		if (r.exit_status)                                                                 \
-			fail_msg("exit status %d: %s", r.exit_status, r.err);                      \
-		ran_finish(&r);                                                                    \
-	} while (0)
-
-static void near(double a, double b, double tolerance)
-{
-	if (!(fabs(a - b) <= tolerance))
-		fail_msg("%.17g is not %.17g within %g", a, b, tolerance);
 }
 
 /* K of the torus at a point of it. */
@@ -75,7 +37,7 @@ static void test_places(void **state)
 {
 	enum { NU = 70, NV = 131 }; /* more than one tile, none of them whole at the border */
 	(void)state;
-	RUN("saddle.base", "--grid", "70x131");
+	run_well(curvature, "saddle.base", "--grid", "70x131", NULL);
 	struct exr_picture p;
 	assert_int_equal(exr_read(&p, "saddle.map.exr", NULL), ST_OK);
 	assert_int_equal(p.width, NU);
@@ -102,7 +64,7 @@ static double figure(const json_t *figures, const char *name)
 	return json_number(figures, name, NAN);
 }
 
-static json_t *figures_of(const char *path)
+static json_t *picture_figures(const char *path)
 {
 	struct exr_picture p;
 	json_t *figures;
@@ -117,8 +79,8 @@ static json_t *figures_of(const char *path)
 static void test_figures(void **state)
 {
 	(void)state;
-	RUN("torus.base", "--grid", "129x129");
-	json_t *f = figures_of("torus.map.exr");
+	run_well(curvature, "torus.base", "--grid", "129x129", NULL);
+	json_t *f = picture_figures("torus.map.exr");
 	near(figure(f, "samples"), 129 * 129, 0);
 	near(figure(f, "undefined"), 0, 0);
 	near(figure(f, "K_min"), -1 / (minor * (major - minor)), 1e-14);
@@ -132,8 +94,8 @@ static void test_figures(void **state)
 	json_decref(f);
 
 	/* a sphere's poles have limits, so nothing is missing */
-	RUN("sphere.base", "--grid", "33x33");
-	f = figures_of("sphere.map.exr");
+	run_well(curvature, "sphere.base", "--grid", "33x33", NULL);
+	f = picture_figures("sphere.map.exr");
 	near(figure(f, "undefined"), 0, 0);
 	near(figure(f, "K_min"), 0.25, 1e-7);
 	near(figure(f, "K_max"), 0.25, 1e-7);
@@ -145,7 +107,8 @@ static void test_figures(void **state)
 static void test_view(void **state)
 {
 	(void)state;
-	RUN("torus.base", "--grid", "16x16", "--view", "20,40:perspective", "--size", "150x100");
+	run_well(curvature, "torus.base", "--grid", "16x16", "--view", "20,40:perspective",
+	         "--size", "150x100", NULL);
 	struct exr_picture p;
 	assert_int_equal(exr_read(&p, "torus.view.exr", NULL), ST_OK);
 	assert_int_equal(p.n_channels, 14);
@@ -176,10 +139,10 @@ static void test_same_bytes(void **state)
 {
 	static const char *const extensions[] = { "map.exr", "map.png", "view.exr", "view.png" };
 	(void)state;
-	RUN("torus.base", "--grid", "150x90", "--png", "--view", "top", "--size", "130x130",
-	    "--threads", "1", "-o", "one");
-	RUN("torus.base", "--grid", "150x90", "--png", "--view", "top", "--size", "130x130",
-	    "--threads", "4", "-o", "four");
+	run_well(curvature, "torus.base", "--grid", "150x90", "--png", "--view", "top", "--size",
+	         "130x130", "--threads", "1", "-o", "one", NULL);
+	run_well(curvature, "torus.base", "--grid", "150x90", "--png", "--view", "top", "--size",
+	         "130x130", "--threads", "4", "-o", "four", NULL);
 	for (int i = 0; i < 4; i++) {
 		char a[32], b[32];
 		snprintf(a, sizeof a, "one.%s", extensions[i]);
@@ -194,16 +157,17 @@ static void test_quantities(void **state)
 	static const char *const names[] = { "K", "H", "kabs", "kmax", "kmin", "kn_u", "kn_v" };
 	(void)state;
 	for (int i = 0; i < 7; i++) {
-		RUN("saddle.base", "--grid", "9x9", "--png", "--quantity", names[i], "--scale",
-		    i % 2 ? "linear" : "arsinh", "-o", names[i]);
+		run_well(curvature, "saddle.base", "--grid", "9x9", "--png", "--quantity", names[i],
+		         "--scale", i % 2 ? "linear" : "arsinh", "-o", names[i], NULL);
 		char path[32];
 		snprintf(path, sizeof path, "%s.map.png", names[i]);
 		assert_true(there(path));
 	}
-	RUN("saddle.base", "--grid", "9x9", "--png", "--range", "-1,2.5e0", "-o", "range");
+	run_well(curvature, "saddle.base", "--grid", "9x9", "--png", "--range", "-1,2.5e0", "-o",
+	         "range", NULL);
 	assert_true(there("range.map.png"));
-	RUN("saddle.base", "--grid", "1x1", "--png", "-o", "single");
-	RUN("saddle.base", "--grid", "1x5", "--png", "-o", "column");
+	run_well(curvature, "saddle.base", "--grid", "1x1", "--png", "-o", "single", NULL);
+	run_well(curvature, "saddle.base", "--grid", "1x5", "--png", "-o", "column", NULL);
 }
 
 static void test_refused(void **state)
@@ -241,12 +205,12 @@ int main(int argc, char **argv)
 		return 2;
 	curvature = realpath(argv[1], NULL); /* tests work in other folders */
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test_setup_teardown(test_places, enter, leave),
-		cmocka_unit_test_setup_teardown(test_figures, enter, leave),
-		cmocka_unit_test_setup_teardown(test_view, enter, leave),
-		cmocka_unit_test_setup_teardown(test_same_bytes, enter, leave),
-		cmocka_unit_test_setup_teardown(test_quantities, enter, leave),
-		cmocka_unit_test_setup_teardown(test_refused, enter, leave),
+		cmocka_unit_test_setup_teardown(test_places, enter, bodies_leave),
+		cmocka_unit_test_setup_teardown(test_figures, enter, bodies_leave),
+		cmocka_unit_test_setup_teardown(test_view, enter, bodies_leave),
+		cmocka_unit_test_setup_teardown(test_same_bytes, enter, bodies_leave),
+		cmocka_unit_test_setup_teardown(test_quantities, enter, bodies_leave),
+		cmocka_unit_test_setup_teardown(test_refused, enter, bodies_leave),
 	};
 	int rc = cmocka_run_group_tests(tests, NULL, NULL);
 	free(curvature);

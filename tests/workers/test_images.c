@@ -1,50 +1,15 @@
 /* test_images.c - the shading and ray tracing workers against formulas: masks, points, normals,
  * light, shadows, mirrors. */
-#include "drive.h"
+#include "bodies.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base.h"
-#include "construct.h"
 #include "exr.h"
 #include "json.h"
 
 static char *shading, *raytrace;
-
-static void write_model(const char *path, struct surface *s, int n)
-{
-	struct model m;
-
-	model_init(&m);
-	for (int i = 0; i < n; i++) {
-		struct entity e = { .kind = ENTITY_SURFACE, .surface = -1, .geometry = s[i] };
-
-		assert_int_equal(model_add(&m, &e), ST_OK);
-	}
-	model_number(&m);
-	assert_int_equal(base_write(&m, path, NULL), ST_OK);
-	model_finish(&m);
-}
-
-static struct surface sphere(struct vec3 c, double radius)
-{
-	struct surface s;
-
-	assert_int_equal(make_sphere(&s, c, radius), ST_OK);
-	return s;
-}
-
-/* The square of half width r at height z. */
-static struct surface square(double r, double z)
-{
-	const struct vec3 corner[4] = { { -r, -r, z }, { r, -r, z }, { -r, r, z }, { r, r, z } };
-	struct surface s;
-
-	assert_int_equal(make_bilinear(&s, corner), ST_OK);
-	return s;
-}
 
 static int enter(void **state)
 {
@@ -52,26 +17,14 @@ static int enter(void **state)
 
 	*state = &place;
 	place_enter(&place);
-	write_model("sphere.base", (struct surface[]){ sphere(vec3(0, 0, 0), 2) }, 1);
-	write_model("square.base", (struct surface[]){ square(2, 0) }, 1);
-	write_model("stack.base", (struct surface[]){ square(2, 0), square(1, 1) }, 2);
-	write_model("ball.base", (struct surface[]){ square(4, 0), sphere(vec3(0, 0, 1.5), 1) }, 2);
+	body_write("sphere.base", NULL, body_sphere(vec3(0, 0, 0), 2));
+	body_write("square.base", NULL, body_square(2, 0));
+	bodies_write("stack.base", NULL, (struct surface[]){ body_square(2, 0), body_square(1, 1) },
+	             2);
+	bodies_write("ball.base", NULL,
+	             (struct surface[]){ body_square(4, 0), body_sphere(vec3(0, 0, 1.5), 1) }, 2);
 	return 0;
 }
-
-static int leave(void **state)
-{
-	place_leave(*state);
-	return 0;
-}
-
-#define RUN(worker, ...)                                                                           \
-	do {                                                                                       \
-		struct ran r = run_hand(worker, __VA_ARGS__, NULL);                                \
-		if (r.exit_status)                                                                 \
-			fail_msg("exit status %d: %s", r.exit_status, r.err);                      \
-		ran_finish(&r);                                                                    \
-	} while (0)
 
 /* An image with its planes by name. */
 struct seen {
@@ -111,12 +64,6 @@ static double figure(const struct seen *s, const char *name)
 	return x;
 }
 
-static void near(double a, double b, double tolerance)
-{
-	if (!(fabs(a - b) <= tolerance))
-		fail_msg("%.9g is not %.9g within %g", a, b, tolerance);
-}
-
 /* A white sphere with the light at the viewer's: both workers must give N . L and nothing else,
  * without a speckle; what is not covered is empty. */
 static void test_sphere(void **state)
@@ -129,13 +76,14 @@ static void test_sphere(void **state)
 		size_t covered = 0;
 
 		if (k == 0)
-			RUN(shading, "sphere.base", "--view", "front", "--size", "200x160",
-			    "--samples", "1", "--light", "0,-3,0", "--ambient", "0", "--diffuse",
-			    "1", "--specular", "0", "--color", "#FFFFFF");
+			run_well(shading, "sphere.base", "--view", "front", "--size", "200x160",
+			         "--samples", "1", "--light", "0,-3,0", "--ambient", "0",
+			         "--diffuse", "1", "--specular", "0", "--color", "#FFFFFF", NULL);
 		else
-			RUN(raytrace, "sphere.base", "--view", "front", "--size", "200x160",
-			    "--samples", "1", "--light", "0,-3,0", "--ambient", "0", "--diffuse",
-			    "1", "--specular", "0", "--color", "#FFFFFF", "--mirror", "0");
+			run_well(raytrace, "sphere.base", "--view", "front", "--size", "200x160",
+			         "--samples", "1", "--light", "0,-3,0", "--ambient", "0",
+			         "--diffuse", "1", "--specular", "0", "--color", "#FFFFFF",
+			         "--mirror", "0", NULL);
 		see(&s, outputs[k]);
 		for (int i = 0; i < s.n; i++) {
 			double p[3], along = 0;
@@ -173,7 +121,7 @@ static void test_nearest_surface(void **state)
 	struct seen s;
 
 	(void)state;
-	RUN(shading, "stack.base", "--view", "top", "--size", "100x100");
+	run_well(shading, "stack.base", "--view", "top", "--size", "100x100", NULL);
 	see(&s, "stack.shade.exr");
 	for (int i = 0; i < s.n; i++) {
 		double x = (double)s.point[0][i], y = (double)s.point[1][i];
@@ -209,13 +157,13 @@ static void test_lines(void **state)
 	struct seen s;
 
 	(void)state;
-	RUN(shading, "square.base", "--view", "top", "--size", "211x211", "--wire", "5x3",
-	    "--line-width", "2");
+	run_well(shading, "square.base", "--view", "top", "--size", "211x211", "--wire", "5x3",
+	         "--line-width", "2", NULL);
 	see(&s, "square.shade.exr");
 	assert_int_equal(dark_runs(&s, 105), 6);
 	exr_picture_finish(&s.picture);
-	RUN(shading, "square.base", "--view", "top", "--size", "211x211", "--edges", "--line-width",
-	    "2");
+	run_well(shading, "square.base", "--view", "top", "--size", "211x211", "--edges",
+	         "--line-width", "2", NULL);
 	see(&s, "square.shade.exr");
 	assert_int_equal(dark_runs(&s, 105), 2);
 	exr_picture_finish(&s.picture);
@@ -228,8 +176,8 @@ static void test_shadow(void **state)
 	int dark = 0, bright = 0;
 
 	(void)state;
-	RUN(raytrace, "ball.base", "--light", "0,0,1", "--view", "-90,30", "--size", "240x160",
-	    "--samples", "1", "--ambient", "0", "--mirror", "0", "--specular", "0");
+	run_well(raytrace, "ball.base", "--light", "0,0,1", "--view", "-90,30", "--size", "240x160",
+	         "--samples", "1", "--ambient", "0", "--mirror", "0", "--specular", "0", NULL);
 	see(&s, "ball.trace.exr");
 	for (int i = 0; i < s.n; i++) {
 		double x = (double)s.point[0][i], y = (double)s.point[1][i];
@@ -245,8 +193,8 @@ static void test_shadow(void **state)
 	}
 	assert_true(dark > 100 && bright > 1000);
 	exr_picture_finish(&s.picture);
-	RUN(raytrace, "ball.base", "--light", "0,0,1", "--view", "-90,30", "--size", "240x160",
-	    "--samples", "1", "--ambient", "0", "--mirror", "0", "--shadows", "no");
+	run_well(raytrace, "ball.base", "--light", "0,0,1", "--view", "-90,30", "--size", "240x160",
+	         "--samples", "1", "--ambient", "0", "--mirror", "0", "--shadows", "no", NULL);
 	see(&s, "ball.trace.exr");
 	for (int i = 0; i < s.n; i++)
 		if (s.a[i] == 1 && fabs((double)s.point[2][i]) < 1e-6)
@@ -261,7 +209,8 @@ static void test_mirror(void **state)
 	int bright = 0, dark = 0, between = 0;
 
 	(void)state;
-	RUN(raytrace, "sphere.base", "--mirror", "1", "--size", "160x160", "--samples", "1");
+	run_well(raytrace, "sphere.base", "--mirror", "1", "--size", "160x160", "--samples", "1",
+	         NULL);
 	see(&s, "sphere.trace.exr");
 	for (int i = 0; i < s.n; i++) {
 		if (s.a[i] < 1)
@@ -273,7 +222,8 @@ static void test_mirror(void **state)
 	assert_true(bright > 2000 && dark > 2000 && between < (bright + dark) / 4);
 	exr_picture_finish(&s.picture);
 
-	RUN(raytrace, "square.base", "--mirror", "1", "--environment", "none", "--size", "40x40");
+	run_well(raytrace, "square.base", "--mirror", "1", "--environment", "none", "--size",
+	         "40x40", NULL);
 	see(&s, "square.trace.exr");
 	for (int i = 0; i < s.n; i++)
 		near((double)s.r[i], 0, 1e-6);
@@ -281,8 +231,8 @@ static void test_mirror(void **state)
 
 	double rays[2];
 	for (int depth = 0; depth < 2; depth++) {
-		RUN(raytrace, "ball.base", "--view", "-90,30", "--depth", depth ? "1" : "0",
-		    "--environment", "sky", "--size", "80x80", "--shadows", "no");
+		run_well(raytrace, "ball.base", "--view", "-90,30", "--depth", depth ? "1" : "0",
+		         "--environment", "sky", "--size", "80x80", "--shadows", "no", NULL);
 		see(&s, "ball.trace.exr");
 		rays[depth] = figure(&s, "rays");
 		exr_picture_finish(&s.picture);
@@ -304,9 +254,9 @@ static void test_same_bytes(void **state)
 		for (int i = 0; i < 2; i++) {
 			snprintf(a[i], sizeof a[i], "%c.%s.exr", 'a' + i, names[k]);
 			snprintf(png[i], sizeof png[i], "%c.%s.png", 'a' + i, names[k]);
-			RUN(workers[k], "ball.base", "--size", "150x100", "--threads",
-			    i ? "3" : "1", "-o", i ? "b" : "a", "--png", "--view",
-			    "three-quarter:perspective");
+			run_well(workers[k], "ball.base", "--size", "150x100", "--threads",
+			         i ? "3" : "1", "-o", i ? "b" : "a", "--png", "--view",
+			         "three-quarter:perspective", NULL);
 			assert_true(there(png[i]));
 		}
 		assert_same_file(a[0], a[1]);
@@ -345,11 +295,11 @@ static void test_refused(void **state)
 	ran_finish(&r);
 
 	/* a surface without extent */
-	struct surface s = sphere(vec3(1, 1, 1), 2);
+	struct surface s = body_sphere(vec3(1, 1, 1), 2);
 	for (int i = 0; i < s.n[0]; i++)
 		for (int j = 0; j < s.n[1]; j++)
 			surface_set_point(&s, i, j, vec3(1, 1, 1), 1);
-	write_model("point.base", &s, 1);
+	bodies_write("point.base", NULL, &s, 1);
 	r = run_hand(shading, "point.base", NULL);
 	assert_int_equal(r.exit_status, 1);
 	assert_non_null(strstr(r.err, "point"));
@@ -364,13 +314,13 @@ int main(int argc, char **argv)
 	shading = realpath(argv[1], NULL); /* tests work in other folders */
 	raytrace = realpath(argv[2], NULL);
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test_setup_teardown(test_sphere, enter, leave),
-		cmocka_unit_test_setup_teardown(test_nearest_surface, enter, leave),
-		cmocka_unit_test_setup_teardown(test_lines, enter, leave),
-		cmocka_unit_test_setup_teardown(test_shadow, enter, leave),
-		cmocka_unit_test_setup_teardown(test_mirror, enter, leave),
-		cmocka_unit_test_setup_teardown(test_same_bytes, enter, leave),
-		cmocka_unit_test_setup_teardown(test_refused, enter, leave),
+		cmocka_unit_test_setup_teardown(test_sphere, enter, bodies_leave),
+		cmocka_unit_test_setup_teardown(test_nearest_surface, enter, bodies_leave),
+		cmocka_unit_test_setup_teardown(test_lines, enter, bodies_leave),
+		cmocka_unit_test_setup_teardown(test_shadow, enter, bodies_leave),
+		cmocka_unit_test_setup_teardown(test_mirror, enter, bodies_leave),
+		cmocka_unit_test_setup_teardown(test_same_bytes, enter, bodies_leave),
+		cmocka_unit_test_setup_teardown(test_refused, enter, bodies_leave),
 	};
 	int rc = cmocka_run_group_tests(tests, NULL, NULL);
 

@@ -1,13 +1,10 @@
 /* test_isocurvature.c - the isocurvature worker on a torus: circles, figures, drawing, refusals. */
-#include "drive.h"
+#include "bodies.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "base.h"
-#include "construct.h"
 #include "json.h"
 
 static char *isocurvature;
@@ -15,22 +12,9 @@ static char *isocurvature;
 static int enter(void **state)
 {
 	static struct place place;
-	struct model m;
-	struct entity e = { .kind = ENTITY_SURFACE, .surface = -1 };
 	*state = &place;
 	place_enter(&place);
-	assert_int_equal(make_torus(&e.geometry, vec3(0, 0, 0), 3, 1), ST_OK);
-	model_init(&m);
-	assert_int_equal(model_add(&m, &e), ST_OK);
-	model_number(&m);
-	assert_int_equal(base_write(&m, "torus.base", NULL), ST_OK);
-	model_finish(&m);
-	return 0;
-}
-
-static int leave(void **state)
-{
-	place_leave(*state);
+	body_write("torus.base", NULL, body_torus(vec3(0, 0, 0), 3, 1));
 	return 0;
 }
 
@@ -43,10 +27,7 @@ static void ran(int status, struct ran r)
 
 static double figure(const struct model *m, const char *name)
 {
-	json_t *figures;
-	const char *text = model_get_attribute(m, "figures");
-	assert_non_null(text);
-	assert_int_equal(json_parse_object(text, strlen(text), "figures", &figures, NULL), ST_OK);
+	json_t *figures = figures_of(m);
 	const double x = json_number(figures, name, NAN);
 	json_decref(figures);
 	return x;
@@ -103,7 +84,7 @@ int main(int argc, char **argv)
 	if (argc != 2)
 		return 2;
 	isocurvature = realpath(argv[1], NULL);
-	int failed = cmocka_run_group_tests(tests, enter, leave);
+	int failed = cmocka_run_group_tests(tests, enter, bodies_leave);
 	free(isocurvature);
 	return failed;
 }

@@ -1,81 +1,33 @@
 /* test_isophotes.c - the isophotes worker against circles on a sphere: figures, file, drawing. */
-#include "drive.h"
+#include "bodies.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base.h"
-#include "construct.h"
 #include "json.h"
 
 static const double radius = 2;
 
 static char *isophotes;
 
-static void write_model(const char *path, struct surface *s)
-{
-	struct model m;
-	struct entity e = { .kind = ENTITY_SURFACE, .surface = -1, .geometry = *s };
-	model_init(&m);
-	m.unit = strdup("mm");
-	assert_int_equal(model_add(&m, &e), ST_OK);
-	model_number(&m);
-	assert_int_equal(base_write(&m, path, NULL), ST_OK);
-	model_finish(&m);
-}
-
 static int enter(void **state)
 {
 	static struct place place;
 	*state = &place;
 	place_enter(&place);
-	struct surface s;
-	assert_int_equal(make_sphere(&s, vec3(0, 0, 0), radius), ST_OK);
-	write_model("sphere.base", &s);
-	assert_int_equal(make_torus(&s, vec3(1, 2, 3), 20, 5), ST_OK);
-	write_model("torus.base", &s);
-	const struct vec3 corner[4] = { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 3, 0 }, { 4, 3, 0 } };
-	assert_int_equal(make_bilinear(&s, corner), ST_OK);
-	write_model("flat.base", &s);
-	const struct vec3 point[4] = { { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } };
-	assert_int_equal(make_bilinear(&s, point), ST_OK);
-	write_model("point.base", &s);
+	body_write("sphere.base", "mm", body_sphere(vec3(0, 0, 0), radius));
+	body_write("torus.base", "mm", body_torus(vec3(1, 2, 3), 20, 5));
+	body_write("flat.base", "mm",
+	           body_corners(vec3(0, 0, 0), vec3(4, 0, 0), vec3(0, 3, 0), vec3(4, 3, 0)));
+	const struct vec3 p = vec3(1, 1, 1);
+	body_write("point.base", "mm", body_corners(p, p, p, p));
 	return 0;
-}
-
-static int leave(void **state)
-{
-	place_leave(*state);
-	return 0;
-}
-
-#define RUN(...)                                                                                   \
-	do {                                                                                       \
-		struct ran r = run_hand(isophotes, __VA_ARGS__, NULL);                             \
-		if (r.exit_status)                                                                 \
-			fail_msg("exit status %d: %s", r.exit_status, r.err);                      \
-		ran_finish(&r);                                                                    \
-	} while (0)
-
-static void near(double a, double b, double tolerance)
-{
-	if (!(fabs(a - b) <= tolerance))
-		fail_msg("%.17g is not %.17g within %g", a, b, tolerance);
 }
 
 static void curves_read(struct model *m, const char *path)
 {
 	assert_int_equal(model_read(m, path, NULL, NULL), ST_OK);
-}
-
-static json_t *figures_of(const struct model *m)
-{
-	json_t *figures;
-	const char *text = model_get_attribute(m, "figures");
-	assert_non_null(text);
-	assert_int_equal(json_parse_object(text, strlen(text), "figures", &figures, NULL), ST_OK);
-	return figures;
 }
 
 static double number_of(const struct entity *e, const char *name)
@@ -89,7 +41,8 @@ static double number_of(const struct entity *e, const char *name)
 static void test_circle(void **state)
 {
 	(void)state;
-	RUN("sphere.base", "--angle", "60", "--light", "0,0,3", "--tolerance", "1e-6");
+	run_well(isophotes, "sphere.base", "--angle", "60", "--light", "0,0,3", "--tolerance",
+	         "1e-6", NULL);
 	struct model m;
 	curves_read(&m, "sphere.isophote");
 	json_t *f = figures_of(&m);
@@ -128,7 +81,8 @@ static void test_circle(void **state)
 static void test_levels(void **state)
 {
 	(void)state;
-	RUN("torus.base", "--from", "30", "--to", "150", "--count", "5", "--svg");
+	run_well(isophotes, "torus.base", "--from", "30", "--to", "150", "--count", "5", "--svg",
+	         NULL);
 	struct model m;
 	curves_read(&m, "torus.isophote");
 	json_t *f = figures_of(&m), *levels = json_object_get(f, "levels"), *row;
@@ -156,7 +110,7 @@ static void test_levels(void **state)
 	char *svg = slurp("torus.isophote.svg", &n);
 	assert_non_null(strstr(svg, "<svg"));
 	free(svg);
-	RUN("torus.base", "-o", "all");
+	run_well(isophotes, "torus.base", "-o", "all", NULL);
 	curves_read(&m, "all.isophote");
 	f = figures_of(&m);
 	assert_int_equal(json_array_size(json_object_get(f, "levels")), 17);
@@ -169,7 +123,7 @@ static void test_levels(void **state)
 static void test_undecided(void **state)
 {
 	(void)state;
-	RUN("flat.base", "--angle", "0");
+	run_well(isophotes, "flat.base", "--angle", "0", NULL);
 	struct model m;
 	curves_read(&m, "flat.isophote");
 	json_t *f = figures_of(&m);
@@ -189,19 +143,17 @@ static void test_undecided(void **state)
 static void test_same_bytes(void **state)
 {
 	(void)state;
-	RUN("torus.base", "--light", "1,2,3", "--svg", "--threads", "1", "-o", "one");
-	RUN("torus.base", "--light", "1,2,3", "--svg", "--threads", "4", "-o", "four");
+	run_well(isophotes, "torus.base", "--light", "1,2,3", "--svg", "--threads", "1", "-o",
+	         "one", NULL);
+	run_well(isophotes, "torus.base", "--light", "1,2,3", "--svg", "--threads", "4", "-o",
+	         "four", NULL);
 	assert_same_file("one.isophote", "four.isophote");
 	assert_same_file("one.isophote.svg", "four.isophote.svg");
 }
 
 static void test_wrong(void **state)
 {
-	static const struct {
-		const char *input, *arguments[4];
-		int exit_status;
-		const char *says;
-	} wrong[] = {
+	static const struct refusal wrong[] = {
 		{ "sphere.base", { "--angle", "181" }, 2, "angle" },
 		{ "sphere.base", { "--angle", "30", "--from", "10" }, 2, "twice" },
 		{ "sphere.base", { "--from", "50", "--to", "40" }, 2, "above" },
@@ -211,15 +163,7 @@ static void test_wrong(void **state)
 		{ "point.base", { "--angle", "30" }, 1, "point" },
 	};
 	(void)state;
-	for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-		const char *const *a = wrong[i].arguments;
-		struct ran r = run_hand(isophotes, wrong[i].input, "-o", "wrong", a[0], a[1], a[2],
-		                        a[3], NULL);
-		if (r.exit_status != wrong[i].exit_status || !strstr(r.err, wrong[i].says))
-			fail_msg("case %zu: exit status %d: %s", i, r.exit_status, r.err);
-		assert_false(there("wrong.isophote"));
-		ran_finish(&r);
-	}
+	expect_refusals(isophotes, wrong, sizeof wrong / sizeof *wrong, "wrong.isophote");
 }
 
 int main(int argc, char **argv)
@@ -232,7 +176,7 @@ int main(int argc, char **argv)
 	if (argc < 2)
 		return 2;
 	isophotes = realpath(argv[1], NULL); /* tests work in another folder */
-	int rc = cmocka_run_group_tests(tests, enter, leave);
+	int rc = cmocka_run_group_tests(tests, enter, bodies_leave);
 	free(isophotes);
 	return rc;
 }

@@ -1,12 +1,11 @@
 /* test_reflection.c - reflection, highlight lines and silhouettes against formulas and the laws of
  * mirrors. */
-#include "drive.h"
+#include "bodies.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base.h"
 #include "construct.h"
 #include "json.h"
 
@@ -14,65 +13,28 @@ static const double radius = 2;
 
 static char *reflection;
 
-static void write_model(const char *path, struct surface *s)
-{
-	struct model m;
-	struct entity e = { .kind = ENTITY_SURFACE, .surface = -1, .geometry = *s };
-	model_init(&m);
-	assert_int_equal(model_add(&m, &e), ST_OK);
-	model_number(&m);
-	assert_int_equal(base_write(&m, path, NULL), ST_OK);
-	model_finish(&m);
-}
-
 static int enter(void **state)
 {
 	static struct place place;
 	*state = &place;
 	place_enter(&place);
+	body_write("sphere.base", NULL, body_sphere(vec3(0, 0, 0), radius));
+	body_write("flat.base", NULL,
+	           body_corners(vec3(0, 0, 0), vec3(4, 0, 0), vec3(0, 3, 0), vec3(4, 3, 0)));
 	struct surface s;
-	assert_int_equal(make_sphere(&s, vec3(0, 0, 0), radius), ST_OK);
-	write_model("sphere.base", &s);
-	const struct vec3 corner[4] = { { 0, 0, 0 }, { 4, 0, 0 }, { 0, 3, 0 }, { 4, 3, 0 } };
-	assert_int_equal(make_bilinear(&s, corner), ST_OK);
-	write_model("flat.base", &s);
 	struct curve arc;
 	assert_int_equal(
 	        make_arc(&arc, vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0), 3, 0, 2 * M_PI), ST_OK);
 	assert_int_equal(make_cylinder(&s, &arc, vec3(0, 0, 8)), ST_OK);
 	curve_finish(&arc);
-	write_model("cylinder.base", &s);
+	body_write("cylinder.base", NULL, s);
 	return 0;
-}
-
-static int leave(void **state)
-{
-	place_leave(*state);
-	return 0;
-}
-
-#define RUN(...)                                                                                   \
-	do {                                                                                       \
-		struct ran ran_ = run_hand(reflection, __VA_ARGS__, NULL);                         \
-		if (ran_.exit_status)                                                              \
-			fail_msg("exit status %d: %s", ran_.exit_status, ran_.err);                \
-		ran_finish(&ran_);                                                                 \
-	} while (0)
-
-static void near(double a, double b, double tolerance)
-{
-	if (!(fabs(a - b) <= tolerance))
-		fail_msg("%.17g is not %.17g within %g", a, b, tolerance);
 }
 
 static json_t *result_read(struct model *m, const char *path)
 {
-	json_t *figures;
 	assert_int_equal(model_read(m, path, NULL, NULL), ST_OK);
-	const char *text = model_get_attribute(m, "figures");
-	assert_non_null(text);
-	assert_int_equal(json_parse_object(text, strlen(text), "figures", &figures, NULL), ST_OK);
-	return figures;
+	return figures_of(m);
 }
 
 static void expect_figures(json_t *f, int branches, int closed, double length, double tolerance)
@@ -88,7 +50,8 @@ static void test_silhouette(void **state)
 {
 	(void)state;
 	struct model m;
-	RUN("sphere.base", "--kind", "silhouette", "--eye", "6,0,8", "--tolerance", "1e-6");
+	run_well(reflection, "sphere.base", "--kind", "silhouette", "--eye", "6,0,8", "--tolerance",
+	         "1e-6", NULL);
 	json_t *f = result_read(&m, "sphere.reflect");
 	const double d = radius * radius / 10, r = sqrt(radius * radius - d * d);
 	expect_figures(f, 1, 1, 2 * M_PI * r, 1e-5);
@@ -100,13 +63,14 @@ static void test_silhouette(void **state)
 	assert_null(entity_get_attribute(&m.entities[1], "line"));
 	json_decref(f);
 	model_finish(&m);
-	RUN("sphere.base", "--kind", "silhouette", "--view", "30,20", "--tolerance", "1e-6");
+	run_well(reflection, "sphere.base", "--kind", "silhouette", "--view", "30,20",
+	         "--tolerance", "1e-6", NULL);
 	f = result_read(&m, "sphere.reflect");
 	expect_figures(f, 1, 1, 2 * M_PI * radius, 1e-5);
 	json_decref(f);
 	model_finish(&m);
-	RUN("sphere.base", "--kind", "silhouette", "--view", "30,20:perspective", "--tolerance",
-	    "1e-6");
+	run_well(reflection, "sphere.base", "--kind", "silhouette", "--view", "30,20:perspective",
+	         "--tolerance", "1e-6", NULL);
 	f = result_read(&m, "sphere.reflect");
 	assert_true(json_number(f, "length", NAN) < 2 * M_PI * radius - 0.1);
 	json_decref(f);
@@ -118,8 +82,9 @@ static void test_highlight(void **state)
 {
 	(void)state;
 	struct model m;
-	RUN("sphere.base", "--kind", "highlight", "--point", "0,1,5", "--direction", "1,0,0",
-	    "--across", "0,1,0", "--spacing", "1", "--count", "3", "--tolerance", "1e-6");
+	run_well(reflection, "sphere.base", "--kind", "highlight", "--point", "0,1,5",
+	         "--direction", "1,0,0", "--across", "0,1,0", "--spacing", "1", "--count", "3",
+	         "--tolerance", "1e-6", NULL);
 	json_t *f = result_read(&m, "sphere.reflect");
 	assert_int_equal(json_array_size(json_object_get(f, "levels")), 3);
 	near(json_number(f, "length", NAN), 3 * 2 * M_PI * radius, 1e-4);
@@ -140,8 +105,9 @@ static void test_plane_mirror(void **state)
 {
 	(void)state;
 	struct model m;
-	RUN("flat.base", "--eye", "1,1,2", "--point", "0,2,5", "--direction", "2,0,0", "--across",
-	    "0,3,0", "--spacing", "1", "--count", "3", "--tolerance", "1e-6", "--svg");
+	run_well(reflection, "flat.base", "--eye", "1,1,2", "--point", "0,2,5", "--direction",
+	         "2,0,0", "--across", "0,3,0", "--spacing", "1", "--count", "3", "--tolerance",
+	         "1e-6", "--svg", NULL);
 	json_t *f = result_read(&m, "flat.reflect");
 	expect_figures(f, 3, 0, 12, 1e-5);
 	for (int i = 1; i <= 3; i++) {
@@ -172,8 +138,9 @@ static void test_mirror(void **state)
 	(void)state;
 	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
 		struct model m;
-		RUN(rows[i].input, "--eye", "9,-7,6", "--point", "7,2,9", "--direction", "1,1,0.5",
-		    "--across", "0,1,0", "--spacing", "2", "--count", "4", "--tolerance", "1e-7");
+		run_well(reflection, rows[i].input, "--eye", "9,-7,6", "--point", "7,2,9",
+		         "--direction", "1,1,0.5", "--across", "0,1,0", "--spacing", "2", "--count",
+		         "4", "--tolerance", "1e-7", NULL);
 		json_t *f = result_read(&m, rows[i].output);
 		assert_true(json_int(f, "branches", -1) >= 4);
 		assert_true(json_number(f, "max_error", NAN) <= 1e-7);
@@ -202,8 +169,10 @@ static void test_same_bytes(void **state)
 	static const char *const kinds[] = { "reflection", "highlight", "silhouette" };
 	(void)state;
 	for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-		RUN("cylinder.base", "--kind", kinds[i], "--svg", "--threads", "1", "-o", "one");
-		RUN("cylinder.base", "--kind", kinds[i], "--svg", "--threads", "4", "-o", "four");
+		run_well(reflection, "cylinder.base", "--kind", kinds[i], "--svg", "--threads", "1",
+		         "-o", "one", NULL);
+		run_well(reflection, "cylinder.base", "--kind", kinds[i], "--svg", "--threads", "4",
+		         "-o", "four", NULL);
 		assert_same_file("one.reflect", "four.reflect");
 		assert_same_file("one.reflect.svg", "four.reflect.svg");
 	}
@@ -211,28 +180,17 @@ static void test_same_bytes(void **state)
 
 static void test_wrong(void **state)
 {
-	static const struct {
-		const char *arguments[4];
-		const char *says;
-	} wrong[] = {
-		{ { "--kind", "shine" }, "kind" },
-		{ { "--direction", "0,0,0" }, "direction" },
-		{ { "--direction", "1,0,0", "--across", "2,0,0" }, "across" },
-		{ { "--spacing", "0" }, "spacing" },
-		{ { "--count", "0" }, "count" },
-		{ { "--view", "behind" }, "view" },
-		{ { "--tolerance", "0" }, "tolerance" },
+	static const struct refusal wrong[] = {
+		{ "sphere.base", { "--kind", "shine" }, 2, "kind" },
+		{ "sphere.base", { "--direction", "0,0,0" }, 2, "direction" },
+		{ "sphere.base", { "--direction", "1,0,0", "--across", "2,0,0" }, 2, "across" },
+		{ "sphere.base", { "--spacing", "0" }, 2, "spacing" },
+		{ "sphere.base", { "--count", "0" }, 2, "count" },
+		{ "sphere.base", { "--view", "behind" }, 2, "view" },
+		{ "sphere.base", { "--tolerance", "0" }, 2, "tolerance" },
 	};
 	(void)state;
-	for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-		const char *const *a = wrong[i].arguments;
-		struct ran r = run_hand(reflection, "sphere.base", "-o", "wrong", a[0], a[1], a[2],
-		                        a[3], NULL);
-		if (r.exit_status != 2 || !strstr(r.err, wrong[i].says))
-			fail_msg("case %zu: exit status %d: %s", i, r.exit_status, r.err);
-		assert_false(there("wrong.reflect"));
-		ran_finish(&r);
-	}
+	expect_refusals(reflection, wrong, sizeof wrong / sizeof *wrong, "wrong.reflect");
 }
 
 int main(int argc, char **argv)
@@ -245,7 +203,7 @@ int main(int argc, char **argv)
 	if (argc < 2)
 		return 2;
 	reflection = realpath(argv[1], NULL); /* tests work in another folder */
-	int rc = cmocka_run_group_tests(tests, enter, leave);
+	int rc = cmocka_run_group_tests(tests, enter, bodies_leave);
 	free(reflection);
 	return rc;
 }

@@ -1,26 +1,15 @@
 /* test_trimmed.c - what workers make of trimmed surfaces. */
-#include "drive.h"
+#include "bodies.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base.h"
-#include "construct.h"
 #include "exr.h"
 #include "json.h"
 
 static char *shading, *raytrace, *curvature;
-
-/* The square of half width r at height z; u and v are 0 to 1. */
-static struct surface square(double r, double z)
-{
-	const struct vec3 corner[4] = { { -r, -r, z }, { r, -r, z }, { -r, r, z }, { r, r, z } };
-	struct surface s;
-
-	assert_int_equal(make_bilinear(&s, corner), ST_OK);
-	return s;
-}
 
 /* An inner loop: the circle of that radius about the middle of the domain, four arcs. */
 static void add_hole(struct trim *t, const struct surface *s, double radius)
@@ -70,32 +59,16 @@ static void write_model(const char *path, struct surface *s, const double *holes
 static int enter(void **state)
 {
 	static struct place place;
-	struct surface ball;
-
 	*state = &place;
 	place_enter(&place);
 	/* a square with a hole of radius 1 over a smaller one without */
-	write_model("stack.base", (struct surface[]){ square(2, 1), square(0.8, 0) },
+	write_model("stack.base", (struct surface[]){ body_square(2, 1), body_square(0.8, 0) },
 	            (double[]){ 0.25, 0 }, 2);
-	assert_int_equal(make_sphere(&ball, vec3(0, 0, 0), 2), ST_OK);
+	struct surface ball = body_sphere(vec3(0, 0, 0), 2);
 	write_model("ball.base", &ball,
 	            (double[]){ 0.25 * (ball.domain[1][1] - ball.domain[1][0]) }, 1);
 	return 0;
 }
-
-static int leave(void **state)
-{
-	place_leave(*state);
-	return 0;
-}
-
-#define RUN(worker, ...)                                                                           \
-	do {                                                                                       \
-		struct ran r = run_hand(worker, __VA_ARGS__, NULL);                                \
-		if (r.exit_status)                                                                 \
-			fail_msg("exit status %d: %s", r.exit_status, r.err);                      \
-		ran_finish(&r);                                                                    \
-	} while (0)
 
 static double figure(const struct exr_picture *p, const char *name)
 {
@@ -120,9 +93,9 @@ static void test_hole_is_seen_through(void **state)
 		struct exr_picture p;
 		bool trimmed = k < 2;
 
-		RUN(k % 2 ? raytrace : shading, "stack.base", "--view", "top:orthographic",
-		    "--size", "240x240", "--samples", "1", "--force", "--trimmed",
-		    trimmed ? "yes" : "no");
+		run_well(k % 2 ? raytrace : shading, "stack.base", "--view", "top:orthographic",
+		         "--size", "240x240", "--samples", "1", "--force", "--trimmed",
+		         trimmed ? "yes" : "no", NULL);
 		assert_int_equal(exr_read(&p, outputs[k % 2], NULL), ST_OK);
 		const float *x = exr_plane(&p, "P.X"), *y = exr_plane(&p, "P.Y");
 		const float *z = exr_plane(&p, "P.Z"), *a = exr_plane(&p, "A");
@@ -162,11 +135,13 @@ static void test_hole_is_seen_through(void **state)
 static void test_threads_do_not_matter(void **state)
 {
 	(void)state;
-	RUN(shading, "stack.base", "--size", "200x150", "--edges", "--threads", "1", "-o", "a");
-	RUN(shading, "stack.base", "--size", "200x150", "--edges", "--threads", "3", "-o", "b");
+	run_well(shading, "stack.base", "--size", "200x150", "--edges", "--threads", "1", "-o", "a",
+	         NULL);
+	run_well(shading, "stack.base", "--size", "200x150", "--edges", "--threads", "3", "-o", "b",
+	         NULL);
 	assert_same_file("a.shade.exr", "b.shade.exr");
-	RUN(curvature, "ball.base", "--grid", "200x100", "--threads", "1", "-o", "a");
-	RUN(curvature, "ball.base", "--grid", "200x100", "--threads", "3", "-o", "b");
+	run_well(curvature, "ball.base", "--grid", "200x100", "--threads", "1", "-o", "a", NULL);
+	run_well(curvature, "ball.base", "--grid", "200x100", "--threads", "3", "-o", "b", NULL);
 	assert_same_file("a.map.exr", "b.map.exr");
 }
 
@@ -177,8 +152,8 @@ static void test_edges_follow_the_loop(void **state)
 	int on = 0, off = 0;
 
 	(void)state;
-	RUN(shading, "stack.base#1", "--view", "top:orthographic", "--size", "400x400", "--samples",
-	    "1", "--edges", "--line-width", "3", "-o", "rim");
+	run_well(shading, "stack.base#1", "--view", "top:orthographic", "--size", "400x400",
+	         "--samples", "1", "--edges", "--line-width", "3", "-o", "rim", NULL);
 	assert_int_equal(exr_read(&p, "rim.shade.exr", NULL), ST_OK);
 	const float *x = exr_plane(&p, "P.X"), *y = exr_plane(&p, "P.Y");
 	const float *a = exr_plane(&p, "A"), *g = exr_plane(&p, "G");
@@ -209,8 +184,8 @@ static void test_curvature_counts_the_inside(void **state)
 		struct exr_picture p;
 		int nan = 0, expected = 0;
 
-		RUN(curvature, "ball.base", "--grid", "201x101", "--png", "--force", "--trimmed",
-		    trimmed ? "yes" : "no");
+		run_well(curvature, "ball.base", "--grid", "201x101", "--png", "--force",
+		         "--trimmed", trimmed ? "yes" : "no", NULL);
 		assert_int_equal(exr_read(&p, "ball.map.exr", NULL), ST_OK);
 		const float *k = exr_plane(&p, "K");
 		struct model m;
@@ -256,5 +231,5 @@ int main(int argc, char **argv)
 	shading = realpath(argv[1], NULL); /* tests work in other folders */
 	raytrace = realpath(argv[2], NULL);
 	curvature = realpath(argv[3], NULL);
-	return cmocka_run_group_tests(tests, enter, leave);
+	return cmocka_run_group_tests(tests, enter, bodies_leave);
 }
