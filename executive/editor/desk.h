@@ -121,10 +121,12 @@ struct box_px desk_part_box(const struct desk *d, enum desk_part part);
 /* Paint a part; cr has window coordinates in logical px and is clear. */
 void desk_paint(struct desk *d, enum desk_part part, cairo_t *cr);
 
-/* The views: each a rectangle and what it shows. *n of them, borrowed until the next event. */
+/* The views: each a rectangle and what it shows. *n of them, borrowed until the next event. A plane of
+ * parameters is painted by PART_OVER: there is nothing to draw. */
 struct desk_tile {
 	struct box_px box;
 	struct view_state view;
+	bool is_uv;
 };
 struct desk_tile *desk_tiles(struct desk *d, int *n);
 bool desk_world_lent(const struct desk *d); /* an errand has it: do not draw views */

@@ -124,7 +124,11 @@ struct desk {
 	/* views */
 	struct desk_tile tiles[TILES_MAX];
 	int n_tiles, tile; /* tile: the one with the keyboard */
-	bool fitted;
+	enum view_split split;
+	bool fitted, split_anew;     /* split_anew: since the views were fitted last */
+	double uv_range[2][2];       /* of the plane of parameters: what is seen of it */
+	double uv_before[2][2];      /* of a drag, for Esc */
+	int uv_of;                   /* id of the surface whose plane that is, 0: none */
 	struct camera camera_before; /* of a drag, for Esc */
 	struct camera camera_seen;   /* the world's, when the views last looked */
 	struct sight sight_before;   /* of a tool, for Esc */
@@ -271,7 +275,17 @@ void desk_views_place(struct desk *d);
 void desk_views_fit(struct desk *d, const char *view);
 void desk_views_adopt(struct desk *d);
 void desk_views_spread(struct desk *d, int from);
+void desk_split_next(struct desk *d);
 int desk_tile_at(const struct desk *d, double x, double y); /* -1: none */
+
+/* desk_uv.c: the plane of parameters, in the tile that has it */
+const struct Ful *desk_uv_surface(const struct desk *d); /* whose plane it is; NULL: none */
+void desk_uv_fit(struct desk *d);
+void desk_uv_pan(struct desk *d, double dx, double dy);
+void desk_uv_zoom(struct desk *d, double factor, double x, double y);
+bool desk_uv_at(struct desk *d, double x, double y, double uv[2]); /* false: beside the domain */
+bool desk_uv_pick(struct desk *d, bool points, struct pick *out);
+void desk_paint_uv(struct desk *d, cairo_t *cr, struct scraps *s, const struct box_px *pane);
 
 /* desk_view.c */
 bool desk_view_press(struct desk *d, enum desk_button b, unsigned mods);

@@ -55,6 +55,9 @@ static bool everywhere(struct desk *d, enum desk_key key, unsigned mods)
 	case KEY_CTRL_A + 'J' - 'A':
 		desk_toggle_page(d, PAGE_JOBS);
 		return true;
+	case KEY_CTRL_A + 'T' - 'A':
+		desk_split_next(d);
+		return true;
 	case KEY_CTRL_A + 'Z' - 'A':
 		undo(d, mods & MOD_SHIFT);
 		return true;
@@ -158,6 +161,10 @@ void desk_command(struct desk *d, uint32_t c)
 	case 'j':
 	case 'J':
 		desk_toggle_page(d, PAGE_JOBS);
+		return;
+	case 't':
+	case 'T':
+		desk_split_next(d);
 		return;
 	case 'z':
 	case 'Z':

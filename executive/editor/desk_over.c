@@ -56,6 +56,33 @@ static const char *heading(struct desk *d, struct scraps *s, const char **note)
 	return f ? f->name : "";
 }
 
+/* Of a window split in two: which half it is. */
+static const char *half_heading(struct desk *d, struct scraps *s, int half, const char *title,
+                                const char **note)
+{
+	const struct Ful *parent, *child, *f;
+	const bool family = world_family(d->world, &parent, &child);
+
+	if (d->split == SPLIT_SIDE && half)
+		*note = "from another side";
+	if (d->split == SPLIT_UV && half && (f = desk_uv_surface(d))) {
+		const double(*domain)[2] = (const double(*)[2])f->entity.geometry.domain;
+		*note = scraps_print(s, "u %g to %g, v %g to %g; thin lines are knots",
+		                     domain[0][0], domain[0][1], domain[1][0], domain[1][1]);
+		return scraps_print(s, "Parameter plane of %s", f->name);
+	}
+	if (d->split != SPLIT_CHILD)
+		return title;
+	*note = half ? "child" : "parent";
+	if (family && half && child->offset_of == parent->id)
+		*note = scraps_print(s, "child, %g from its parent", child->offset);
+	if (!family && half) {
+		*note = "what is copied or offset from it will stand here";
+		return "No child yet";
+	}
+	return half ? child->name : parent ? parent->name : "";
+}
+
 static void tile_headings(struct desk *d, cairo_t *cr, struct scraps *s)
 {
 	const char *note;
@@ -63,6 +90,8 @@ static void tile_headings(struct desk *d, cairo_t *cr, struct scraps *s)
 	for (int i = 0; i < d->n_tiles; i++) {
 		const struct desk_tile *t = &d->tiles[i];
 		const char *title = heading(d, s, &note);
+		if (d->n_tiles == 2)
+			title = half_heading(d, s, i, title, &note);
 		if (t->view.quantity >= 0) {
 			title = in_capital(s, quantity_table[t->view.quantity].title);
 			note = "";
@@ -105,6 +134,9 @@ void desk_paint_over(struct desk *d, cairo_t *cr)
 		bar(d, cr);
 		return;
 	}
+	for (int i = 0; i < d->n_tiles; i++)
+		if (d->tiles[i].is_uv)
+			desk_paint_uv(d, cr, s, &d->tiles[i].box);
 	rules(d, cr);
 	tile_headings(d, cr, s);
 	desk_paint_keys(d, cr, s);

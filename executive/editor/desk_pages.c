@@ -12,6 +12,7 @@ const struct key_row desk_key_table[] = {
 	{ "/  Ctrl K", "find a routine by name, code or help text", false },
 	{ "W  Ctrl W", "the World menu, and back", false },
 	{ "J  Ctrl J", "the jobs", false },
+	{ "T  Ctrl T", "two views: another side, the child, u and v; and back", false },
 	{ "S A K R O L", "in the jobs: suspend, activate, kill, retry, open, log", false },
 	{ "F1", "help for the entry under the mouse, or of what is asked", false },
 	{ "?", "this sheet", false },

@@ -9,6 +9,8 @@ bool desk_pick_at(struct desk *d, bool points, struct pick *out)
 	if (i < 0 || !d->ports.pick || d->errand)
 		return false;
 	const struct desk_tile *t = &d->tiles[i];
+	if (t->is_uv)
+		return desk_uv_pick(d, points, out);
 	return d->ports.pick(d->ports.data, &t->view, d->x - t->box.x, d->y - t->box.y, points,
 	                     d->skip, out) &&
 	       out->thing;
@@ -26,10 +28,11 @@ void desk_hover(struct desk *d)
 		return;
 	for (int k = 0; k < d->n_tiles; k++) {
 		struct view_state *v = &d->tiles[k].view;
-		v->hover_thing = k == i ? d->pick.thing : 0;
-		v->hover_point = k == i && d->pick.is_point ? d->pick.index : -1;
+		const bool here = k == i || d->split == SPLIT_UV;
+		v->hover_thing = here ? d->pick.thing : 0;
+		v->hover_point = here && d->pick.is_point ? d->pick.index : -1;
 	}
-	desk_dirty(d, DESK_VIEW);
+	desk_dirty(d, DESK_VIEW | desk_bit(PART_OVER));
 }
 
 /* The circles of curvature, where the probe is. */
@@ -41,7 +44,7 @@ static void show_probe(struct desk *d)
 	for (int i = 0; i < d->n_tiles; i++)
 		d->tiles[i].view.probe =
 		        on ? (struct mark){ f->id, d->pick.u, d->pick.v } : (struct mark){ 0 };
-	desk_dirty(d, desk_bit(PART_PROBE) | DESK_VIEW);
+	desk_dirty(d, desk_bit(PART_PROBE) | desk_bit(PART_OVER) | DESK_VIEW);
 }
 
 void desk_probe_hide(struct desk *d)

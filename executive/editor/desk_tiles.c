@@ -1,14 +1,22 @@
-/* desk_tiles.c - the views: where they are, and from where each looks. */
+/* desk_tiles.c - the views: where they are, what each shows, and from where it looks. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "desk_inside.h"
 
+/* ------------------------------------------------------------ where they are */
+
+/* Long things lie below each other, a square beside what it is of. */
+static int columns_of(const struct desk *d, int n)
+{
+	return n <= 2 ? (n == 2 && d->tiles[1].is_uv) + 1 : 4;
+}
+
 static void place_tiles(struct desk *d, int n)
 {
-	struct box_px v = d->layout.view;
-	int columns = n == 1 ? 1 : n == 2 ? 1 : 4, rows = n == 1 ? 1 : 2;
+	const struct box_px v = d->layout.view;
+	const int columns = columns_of(d, n), rows = (n + columns - 1) / columns;
 
 	for (int i = 0; i < n; i++) {
 		struct box_px *b = &d->tiles[i].box;
@@ -24,17 +32,62 @@ static void place_tiles(struct desk *d, int n)
 	}
 }
 
+static void size_camera(struct desk_tile *t)
+{
+	t->view.camera.width = (int)t->box.width;
+	t->view.camera.height = (int)t->box.height;
+}
+
+/* Which of the things a view shows; a child that is not there yet leaves its view empty. */
+static void choose_things(struct desk *d)
+{
+	const struct Ful *parent = NULL, *child = NULL;
+
+	if (d->split == SPLIT_CHILD)
+		world_family(d->world, &parent, &child);
+	for (int i = 0; i < d->n_tiles; i++) {
+		const struct Ful *f = i ? child : parent;
+		d->tiles[i].view.only = d->split != SPLIT_CHILD ? 0 : f ? f->id : -1;
+	}
+}
+
+/* The second view of the same begins beside the first. */
+static void look_beside(struct desk *d)
+{
+	const struct sight *s = world_sight(d->world);
+	struct view_state *v = &d->tiles[1].view;
+
+	if (s->has_beside)
+		v->camera = s->beside;
+	size_camera(&d->tiles[1]);
+	if (!s->has_beside && world_count(d->world))
+		view_fit(v, d->world, "top", v->camera.width, v->camera.height, &report_none);
+}
+
+static void split_views(struct desk *d)
+{
+	const struct sight *s = world_sight(d->world);
+	const enum view_split was = d->split;
+	const int before = d->n_tiles;
+
+	d->split = s->all_curvatures ? SPLIT_ONE : s->split;
+	d->n_tiles = s->all_curvatures ? N_QUANTITIES : d->split == SPLIT_ONE ? 1 : 2;
+	for (int i = 0; i < d->n_tiles; i++) {
+		if (i >= before)
+			d->tiles[i].view = d->tiles[0].view;
+		d->tiles[i].is_uv = i == 1 && d->split == SPLIT_UV;
+	}
+	if (d->tile >= d->n_tiles)
+		d->tile = 0;
+	choose_things(d);
+	d->split_anew |= before != d->n_tiles || was != d->split;
+}
+
 void desk_views_place(struct desk *d)
 {
-	bool all = !d->errand && world_sight(d->world)->all_curvatures;
-	int n = d->errand ? d->n_tiles : all ? N_QUANTITIES : 1;
-
-	int was = d->n_tiles;
-	for (int i = was; i < n; i++)
-		d->tiles[i].view = d->tiles[0].view;
-	d->n_tiles = n;
-	if (d->tile >= n)
-		d->tile = 0;
+	if (!d->errand)
+		split_views(d);
+	const int n = d->n_tiles;
 	place_tiles(d, n);
 	for (int i = 0; i < n; i++) {
 		struct view_state *v = &d->tiles[i].view;
@@ -42,15 +95,18 @@ void desk_views_place(struct desk *d)
 		v->scale = d->scale;
 		v->place = i;
 		v->quantity = n == N_QUANTITIES ? i : -1;
-		v->axes = n == 1;
-		v->camera.width = (int)d->tiles[i].box.width;
-		v->camera.height = (int)d->tiles[i].box.height;
+		v->axes = n <= 2;
+		size_camera(&d->tiles[i]);
 		if (!v->hover_thing)
 			v->hover_point = -1;
 	}
-	if (n != was && d->fitted) /* what was seen in one view is seen in each */
-		desk_views_fit(d, NULL);
+	if (!d->split_anew || d->errand || !d->fitted)
+		return;
+	d->tile = 0;
+	desk_views_fit(d, NULL); /* what was seen in one view is seen in each */
 }
+
+/* ------------------------------------------------------------ from where they look */
 
 /* In the form of a leaf that changes the view: the same in words. */
 static void name_view(struct desk *d)
@@ -64,6 +120,26 @@ static void name_view(struct desk *d)
 		             c->kind == CAMERA_PERSPECTIVE ? ":perspective" : "");
 }
 
+/* Is that view turned by itself? */
+static bool stands_alone(const struct desk *d, int tile)
+{
+	return d->split == SPLIT_SIDE && tile == 1;
+}
+
+static void give_camera(struct desk *d, const struct camera *c)
+{
+	for (int i = 0; i < d->n_tiles; i++)
+		if (!stands_alone(d, i)) {
+			d->tiles[i].view.camera = *c;
+			size_camera(&d->tiles[i]);
+		}
+	d->fitted = true;
+	if (d->split_anew && d->split == SPLIT_SIDE)
+		look_beside(d);
+	d->split_anew = false;
+	desk_dirty(d, DESK_VIEW | desk_bit(PART_PROBE));
+}
+
 /* A routine has set it. */
 void desk_views_adopt(struct desk *d)
 {
@@ -71,34 +147,27 @@ void desk_views_adopt(struct desk *d)
 
 	if (!s->has_camera || !memcmp(&s->camera, &d->camera_seen, sizeof s->camera))
 		return;
-	for (int i = 0; i < d->n_tiles; i++) {
-		struct camera *c = &d->tiles[i].view.camera;
-		*c = s->camera;
-		c->width = (int)d->tiles[i].box.width;
-		c->height = (int)d->tiles[i].box.height;
-	}
 	d->camera_seen = s->camera;
-	d->fitted = true;
-	desk_dirty(d, DESK_VIEW);
+	give_camera(d, &d->camera_seen);
 }
 
-/* All views look from the same place; the world keeps it for the session. */
+/* Views look from the same place, but for one that stands alone; the world keeps it for the session. */
 void desk_views_spread(struct desk *d, int from)
 {
 	struct sight *s = world_sight(d->world);
+	const struct camera c = d->tiles[from].view.camera;
 
-	for (int i = 0; i < d->n_tiles; i++) {
-		struct camera *c = &d->tiles[i].view.camera;
-		*c = d->tiles[from].view.camera;
-		c->width = (int)d->tiles[i].box.width;
-		c->height = (int)d->tiles[i].box.height;
+	if (stands_alone(d, from)) {
+		s->beside = c;
+		s->has_beside = true;
+		desk_dirty(d, DESK_VIEW | desk_bit(PART_PROBE));
+	} else {
+		give_camera(d, &c);
+		s->camera = c;
+		s->has_camera = true;
+		d->camera_seen = s->camera;
 	}
-	s->camera = d->tiles[from].view.camera;
-	s->has_camera = true;
-	d->camera_seen = s->camera;
 	name_view(d);
-	d->fitted = true;
-	desk_dirty(d, DESK_VIEW | desk_bit(PART_PROBE));
 }
 
 void desk_views_fit(struct desk *d, const char *view)
@@ -109,6 +178,12 @@ void desk_views_fit(struct desk *d, const char *view)
 
 	if (d->errand || !world_count(d->world))
 		return;
+	if (t->is_uv && d->fitted && (!view || !strcmp(view, "three-quarter"))) {
+		desk_uv_fit(d);
+		return;
+	}
+	if (t->is_uv)
+		t = &d->tiles[0];
 	report_store_init(&store);
 	if (!view && !d->fitted && s->has_camera) { /* as the last session left it */
 		desk_views_adopt(d);
@@ -116,13 +191,34 @@ void desk_views_fit(struct desk *d, const char *view)
 	}
 	if (!view && !d->fitted)
 		view = "three-quarter";
+	if (t->view.only < 0) /* nothing is there to be fitted */
+		t = &d->tiles[0];
 	if (view_fit(&t->view, d->world, view, (int)t->box.width, (int)t->box.height,
 	             &store.report) != ST_OK) {
 		desk_say(d, REPORT_ERROR, "%s", store.error);
 		return;
 	}
-	desk_views_spread(d, d->tile);
+	desk_views_spread(d, (int)(t - d->tiles));
 }
+
+/* ------------------------------------------------------------ one or two */
+
+/* By key from one way to split to the next that has something to show. */
+void desk_split_next(struct desk *d)
+{
+	const struct Ful *parent, *child;
+	enum view_split to = d->split;
+
+	if (desk_busy(d))
+		return;
+	do
+		to = (enum view_split)((to + 1) % N_SPLITS);
+	while ((to == SPLIT_CHILD && !world_family(d->world, &parent, &child)) ||
+	       (to == SPLIT_UV && !desk_uv_surface(d)));
+	desk_run_code(d, "V188", "views", view_split_words[to]);
+}
+
+/* ------------------------------------------------------------ asked from outside */
 
 struct desk_tile *desk_tiles(struct desk *d, int *n)
 {

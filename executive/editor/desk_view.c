@@ -13,6 +13,8 @@ static enum drag_kind drag_of(const struct desk *d, enum desk_button b, unsigned
 {
 	if (b == BUTTON_MIDDLE)
 		return DRAG_PAN;
+	if (d->tiles[d->tile].is_uv && (b == BUTTON_RIGHT || d->space || d->tool != TOOL_POINTS))
+		return b == BUTTON_RIGHT ? DRAG_PROBE : DRAG_PAN;
 	if (b == BUTTON_LEFT && (d->space || d->tool == TOOL_VIEW))
 		return mods & MOD_SHIFT ? DRAG_PAN : DRAG_ROTATE;
 	if (d->tool == TOOL_POINTS)
@@ -39,6 +41,7 @@ bool desk_view_press(struct desk *d, enum desk_button b, unsigned mods)
 	}
 	d->drag = drag_of(d, b, mods);
 	d->camera_before = d->tiles[i].view.camera;
+	memcpy(d->uv_before, d->uv_range, sizeof d->uv_before);
 	d->tiles[i].view.has_pivot = false;
 	if (d->drag == DRAG_POINT && !desk_point_press(d))
 		d->drag = DRAG_NONE;
@@ -54,6 +57,10 @@ void desk_view_move(struct desk *d, double dx, double dy)
 {
 	struct view_state *v = &d->tiles[d->tile].view;
 
+	if (d->tiles[d->tile].is_uv && d->drag == DRAG_PAN) {
+		desk_uv_pan(d, dx, dy);
+		return;
+	}
 	switch (d->drag) {
 	case DRAG_ROTATE:
 		view_rotate(v, d->world, dx, dy);
@@ -94,8 +101,10 @@ void desk_drag_cancel(struct desk *d)
 
 	d->drag = DRAG_NONE;
 	if (was == DRAG_ROTATE || was == DRAG_PAN) {
+		memcpy(d->uv_range, d->uv_before, sizeof d->uv_range);
 		d->tiles[d->tile].view.camera = d->camera_before;
-		desk_views_spread(d, d->tile);
+		if (!d->tiles[d->tile].is_uv)
+			desk_views_spread(d, d->tile);
 	}
 	if (was == DRAG_POINT)
 		desk_point_release(d, false);
@@ -113,6 +122,10 @@ void desk_view_scroll(struct desk *d, double dy)
 	d->tile = i;
 	if (d->space)
 		d->space_used = true;
+	if (d->tiles[i].is_uv) {
+		desk_uv_zoom(d, pow(ZOOM_STEP, dy), d->x, d->y);
+		return;
+	}
 	view_zoom(&d->tiles[i].view, d->world, pow(ZOOM_STEP, dy), d->x - d->tiles[i].box.x,
 	          d->y - d->tiles[i].box.y);
 	desk_views_spread(d, i);
@@ -126,6 +139,14 @@ static void arrow(struct desk *d, double x, double y, unsigned mods)
 	/* as many px as turn by the step: the view's smaller side is half a turn */
 	double px = fmin(t->box.width, t->box.height) * TURN_DEGREES / 180;
 
+	if (t->is_uv) {
+		if (mods & MOD_CTRL)
+			desk_uv_zoom(d, y < 0 || x > 0 ? ZOOM_STEP : 1 / ZOOM_STEP,
+			             t->box.x + t->box.width / 2, t->box.y + t->box.height / 2);
+		else
+			desk_uv_pan(d, PAN_PX * x, PAN_PX * y);
+		return;
+	}
 	if (mods & MOD_CTRL)
 		view_zoom(&t->view, d->world, y < 0 || x > 0 ? ZOOM_STEP : 1 / ZOOM_STEP,
 		          t->box.width / 2, t->box.height / 2);

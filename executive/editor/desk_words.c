@@ -3,6 +3,7 @@
 
 enum mouse_mode {
 	MOUSE_IDLE,
+	MOUSE_PLANE,
 	MOUSE_VIEW,
 	MOUSE_POINTS,
 	MOUSE_LIGHT,
@@ -24,6 +25,8 @@ enum mouse_mode {
 static const struct Mouse_Words word_table[N_MOUSE_MODES] = {
 	[MOUSE_IDLE] = { { "ROTATE VIEW", "PAN VIEW", "PROBE POINT" },
 	                 { "KEEP VIEW", "", "KEEP MARK" } },
+	[MOUSE_PLANE] = { { "TURN OR PAN", "PAN VIEW", "PROBE POINT" },
+	                  { "KEEP VIEW", "", "KEEP MARK" } },
 	[MOUSE_VIEW] = { { "ROTATE VIEW", "PAN VIEW", "PROBE POINT" },
 	                 { "KEEP VIEW", "", "KEEP MARK" } },
 	[MOUSE_POINTS] = { { "PICK POINT", "PAN VIEW", "ROTATE VIEW" },
@@ -63,7 +66,7 @@ static enum mouse_mode mode_of(const struct desk *d)
 		return MOUSE_POINTS;
 	if (d->tool == TOOL_LIGHT)
 		return MOUSE_LIGHT;
-	return MOUSE_IDLE;
+	return d->split == SPLIT_UV ? MOUSE_PLANE : MOUSE_IDLE;
 }
 
 struct Mouse_Words desk_mouse_words(const struct desk *d)

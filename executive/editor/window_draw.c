@@ -39,7 +39,7 @@ static void draw_views(struct window *w)
 		int x = px(w, b->x), y = px(w, b->y);
 		int width = px(w, b->x + b->width) - x, height = px(w, b->y + b->height) - y;
 		bool more = false;
-		if (width <= 0 || height <= 0)
+		if (width <= 0 || height <= 0 || tile[k].is_uv)
 			continue;
 		if (view_draw(w->view, w->world, &tile[k].view, x, w->height - y - height, width,
 		              height, &more, &store.report) != ST_OK)

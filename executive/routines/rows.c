@@ -196,4 +196,5 @@ const struct argument_row rows_perspective[] = {
 	REAL("far", "Far", "0", 0, 1e300, "file", "what is farther is cut away; 0: nothing"),
 	YESNO("orthographic", "Orthographic", "no", "parallel rays, as if from far away"),
 	END };
+const struct argument_row rows_split_view[] = { CHOICE("views", "Views", "one", "one|side|child|uv", "one view; two from two sides; the parent and what was made from it; the surface and its u, v plane"), END };
 /* clang-format on */

@@ -12,12 +12,13 @@ extern const struct argument_row rows_background[], rows_bell[], rows_close[], r
         rows_entities_file[], rows_export[], rows_fit[], rows_grid_map[], rows_grid_shade[],
         rows_insert_d[], rows_isophotes[], rows_jobs[], rows_light[], rows_lines[],
         rows_lines_file[], rows_linetype[], rows_map[], rows_map_file[], rows_material[],
-        rows_mirror[], rows_move[], rows_on[], rows_open[], rows_perspective[], rows_picture[],
-        rows_plane_count[], rows_plane_distance[], rows_plane_start[], rows_plane_tolerance[],
-        rows_plane_tolerance_uv[], rows_porcupine[], rows_quit[], rows_recall[], rows_reflection[],
-        rows_rename[], rows_rotate[], rows_ruled[], rows_samples[], rows_save_as[], rows_scale[],
-        rows_segments[], rows_shade_file[], rows_split_d[], rows_surface[], rows_surface_edit[],
-        rows_surface_resolution[], rows_trace_file[], rows_view[];
+        rows_mirror[], rows_move[], rows_on[], rows_open[], rows_perspective[], rows_split_view[],
+        rows_picture[], rows_plane_count[], rows_plane_distance[], rows_plane_start[],
+        rows_plane_tolerance[], rows_plane_tolerance_uv[], rows_porcupine[], rows_quit[],
+        rows_recall[], rows_reflection[], rows_rename[], rows_rotate[], rows_ruled[],
+        rows_samples[], rows_save_as[], rows_scale[], rows_segments[], rows_shade_file[],
+        rows_split_d[], rows_surface[], rows_surface_edit[], rows_surface_resolution[],
+        rows_trace_file[], rows_view[];
 
 /* A setting that only stores defaults of later jobs, as its rows say. */
 routine_run setting_store;
@@ -40,6 +41,6 @@ routine_run edit_point, edit_elevate, edit_insert, edit_split, edit_fit, edit_ru
 routine_run transform_mirror, transform_move, transform_rotate, transform_scale;
 /* world_menu.c; detail of jobs_each: an enum message_type */
 routine_run world_background, world_choose, world_list_jobs, world_jobs, world_perspective,
-        world_bell, world_quit;
+        world_split, world_bell, world_quit;
 
 #endif

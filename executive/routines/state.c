@@ -97,6 +97,10 @@ static bool value_now(const struct routine *t, const char *name, const struct wo
 		strcpy(out, s->bell ? "no" : "yes"); /* it toggles */
 		return true;
 	}
+	if (t->run == world_split) {
+		strcpy(out, view_split_words[s->split]);
+		return true;
+	}
 	if (t->run == world_background && s->has_background) {
 		color_text(out, s->background);
 		return true;
@@ -164,7 +168,7 @@ void routine_state(const struct routine *t, const struct world *w, char out[48])
 	char value[NUMBER_SIZE];
 
 	*out = 0;
-	if (t->kind != ROUTINE_SETTING && !is_switch(t))
+	if (t->kind != ROUTINE_SETTING && !is_switch(t) && t->run != world_split)
 		return;
 	if (rows_copy(&rows, t->arguments, w) != ST_OK)
 		return;

@@ -32,6 +32,19 @@ enum status world_bell(struct act *a, const struct arguments *given)
 	return ST_OK;
 }
 
+enum status world_split(struct act *a, const struct arguments *given)
+{
+	struct sight *s = world_sight(a->world);
+	const char *views = argument_text(given, "views");
+
+	for (int k = 0; k < N_SPLITS; k++)
+		if (!strcmp(views, view_split_words[k]))
+			s->split = (enum view_split)k;
+	s->all_curvatures = false;
+	world_touch(a->world);
+	return ST_OK;
+}
+
 static bool say_job(void *data, const struct Stats *s)
 {
 	const double fraction = stats_fraction(s);

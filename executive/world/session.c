@@ -14,6 +14,7 @@
 
 const char *const line_type_words[3] = { "solid", "dashed", "dotted" };
 const char *const look_words[4] = { "wire", "shaded", "map", "image" };
+const char *const view_split_words[N_SPLITS] = { "one", "side", "child", "uv" };
 
 char *session_folder(const struct world *w)
 {
@@ -43,26 +44,31 @@ static json_t *display_json(const struct display *d)
 	return o;
 }
 
+static json_t *camera_json(const struct camera *c)
+{
+	return json_pack("{s:b, s:o, s:o, s:o, s:o, s:f}", "perspective",
+	                 c->kind == CAMERA_PERSPECTIVE, "eye", vec_json(c->eye), "right",
+	                 vec_json(c->right), "up", vec_json(c->up), "ahead", vec_json(c->ahead),
+	                 "half", c->half);
+}
+
 static json_t *sight_json(const struct sight *s)
 {
-	const struct camera *c = &s->camera;
 	json_t *o =
 	        json_pack("{s:f, s:f, s:f, s:o, s:f, s:b, s:b}", "light_azimuth", s->light_azimuth,
 	                  "light_incidence", s->light_incidence, "light_intensity",
 	                  s->light_intensity, "specular", rgb_json(s->specular), "reflectivity",
 	                  s->reflectivity, "bell", s->bell, "all_curvatures", s->all_curvatures);
 
+	json_set_text(o, "split", view_split_words[s->split]);
 	json_set_number(o, "near", s->near_);
 	json_set_number(o, "far", s->far_);
 	if (s->has_background)
 		json_object_set_new(o, "background", rgb_json(s->background));
 	if (s->has_camera)
-		json_object_set_new(o, "camera",
-		                    json_pack("{s:b, s:o, s:o, s:o, s:o, s:f}", "perspective",
-		                              c->kind == CAMERA_PERSPECTIVE, "eye",
-		                              vec_json(c->eye), "right", vec_json(c->right), "up",
-		                              vec_json(c->up), "ahead", vec_json(c->ahead), "half",
-		                              c->half));
+		json_object_set_new(o, "camera", camera_json(&s->camera));
+	if (s->has_beside)
+		json_object_set_new(o, "beside", camera_json(&s->beside));
 	return o;
 }
 

@@ -70,12 +70,25 @@ static void display_read(struct display *d, const json_t *o)
 	d->color = rgb_read(color, d->color);
 }
 
+/* False: it is not there, or not whole; *out stays. */
+static bool camera_read(struct camera *out, const json_t *o)
+{
+	struct camera c = { .kind = json_flag(o, "perspective", false) ? CAMERA_PERSPECTIVE
+		                                                       : CAMERA_ORTHOGRAPHIC,
+		            .half = json_number(o, "half", 0) };
+
+	if (!vec_read(json_object_get(o, "eye"), &c.eye) ||
+	    !vec_read(json_object_get(o, "right"), &c.right) ||
+	    !vec_read(json_object_get(o, "up"), &c.up) ||
+	    !vec_read(json_object_get(o, "ahead"), &c.ahead) || !(c.half > 0))
+		return false;
+	*out = c;
+	return true;
+}
+
 static void sight_read(struct sight *s, const json_t *o)
 {
-	const json_t *c = json_object_get(o, "camera"), *back = json_object_get(o, "background");
-	struct camera camera = { .kind = json_flag(c, "perspective", false) ? CAMERA_PERSPECTIVE
-		                                                            : CAMERA_ORTHOGRAPHIC,
-		                 .half = json_number(c, "half", 0) };
+	const json_t *back = json_object_get(o, "background");
 
 	s->light_azimuth = json_number(o, "light_azimuth", s->light_azimuth);
 	s->light_incidence = json_number(o, "light_incidence", s->light_incidence);
@@ -88,12 +101,10 @@ static void sight_read(struct sight *s, const json_t *o)
 	s->all_curvatures = json_flag(o, "all_curvatures", false);
 	s->has_background = json_is_array(back);
 	s->background = rgb_read(back, s->background);
-	s->has_camera = vec_read(json_object_get(c, "eye"), &camera.eye) &&
-	                vec_read(json_object_get(c, "right"), &camera.right) &&
-	                vec_read(json_object_get(c, "up"), &camera.up) &&
-	                vec_read(json_object_get(c, "ahead"), &camera.ahead) && camera.half > 0;
-	if (s->has_camera)
-		s->camera = camera;
+	s->split = (enum view_split)word_index(view_split_words, N_SPLITS,
+	                                       json_text(o, "split", "one"));
+	s->has_camera = camera_read(&s->camera, json_object_get(o, "camera"));
+	s->has_beside = camera_read(&s->beside, json_object_get(o, "beside"));
 }
 
 /* The file read last, since things of one file follow each other. */

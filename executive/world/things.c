@@ -208,6 +208,29 @@ const struct Ful *world_selected(const struct world *w)
 	return f ? f : world_current(w, true);
 }
 
+static bool made_from(const struct Ful *f, int id)
+{
+	return id && (f->copy_of == id || f->offset_of == id);
+}
+
+bool world_family(const struct world *w, const struct Ful **parent, const struct Ful **child)
+{
+	const struct Ful *f = world_selected(w);
+
+	*parent = f;
+	*child = NULL;
+	for (int k = w->n - 1; f && k >= 0 && !*child; k--)
+		if (made_from(w->things[k], f->id))
+			*child = w->things[k];
+	const struct Ful *origin =
+	        f && !*child ? thing_get(w, f->offset_of ? f->offset_of : f->copy_of) : NULL;
+	if (origin) {
+		*parent = origin;
+		*child = f;
+	}
+	return *child;
+}
+
 /* A current thing that is no longer open gives way to the last of its kind. */
 void thing_mend_current(struct world *w)
 {

@@ -71,6 +71,11 @@ struct mark {
 	double u, v;
 };
 
+/* What the window shows beside each other: one view; two of the same from two sides; the parent and
+ * what was made from it; the current surface and the plane of its parameters. */
+enum view_split { SPLIT_ONE, SPLIT_SIDE, SPLIT_CHILD, SPLIT_UV, N_SPLITS };
+extern const char *const view_split_words[N_SPLITS]; /* "one", "side", "child", "uv" */
+
 /* Things that setting routines set and that are no default of a job. */
 struct sight {
 	struct camera camera; /* width and height are the window's concern */
@@ -83,6 +88,9 @@ struct sight {
 	double reflectivity;
 	bool bell;
 	bool all_curvatures; /* seven tiles */
+	enum view_split split;
+	struct camera beside; /* of SPLIT_SIDE, from where the second view looks */
+	bool has_beside;
 };
 
 struct world; /* opaque */
@@ -104,7 +112,11 @@ const struct Ful *world_by_id(const struct world *w, int id); /* NULL: none */
 const struct Ful *world_find(const struct world *w, const char *name, const struct report *r);
 const struct Ful *world_current(const struct world *w, bool curve); /* NULL: none */
 const struct Ful *
-world_selected(const struct world *w);          /* the one of both that was made current last */
+world_selected(const struct world *w); /* the one of both that was made current last */
+/* The thing selected and the last one made from it (a copy, an offset), or, where it was made from
+ * another itself, that other and it; false: there is no child, and
+ * *parent is what is selected. */
+bool world_family(const struct world *w, const struct Ful **parent, const struct Ful **child);
 unsigned world_revision(const struct world *w); /* grows with every change of anything here */
 bool world_unsaved(const struct world *w);
 

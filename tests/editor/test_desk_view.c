@@ -42,6 +42,122 @@ static void the_mouse_turns_and_words_tell(void **state)
 	assert_int_equal(n, 7);
 }
 
+static void two_views_of_the_same_turn_by_themselves(void **state)
+{
+	struct stand *s = *state;
+	int n;
+
+	stand_add_plate(s, "plate");
+	stand_key(s, KEY_HOME);
+	stand_type(s, "t");
+	const struct desk_tile *t = desk_tiles(s->desk, &n);
+	assert_int_equal(n, 2);
+	assert_int_equal(world_sight(s->world)->split, SPLIT_SIDE);
+	assert_true(t[1].box.y > t[0].box.y); /* below each other */
+	assert_true(t[1].view.camera.ahead.z < -0.999);
+	struct vec3 first = t[0].view.camera.ahead, second = t[1].view.camera.ahead;
+	desk_move(s->desk, 400, t[1].box.y + 100);
+	desk_press(s->desk, BUTTON_LEFT, 0);
+	desk_move(s->desk, 480, t[1].box.y + 60);
+	desk_release(s->desk, BUTTON_LEFT);
+	assert_true(vec3_dot(t[0].view.camera.ahead, first) > 1 - 1e-12);
+	assert_true(vec3_dot(t[1].view.camera.ahead, second) < 0.999);
+	assert_int_equal(desk_tile_focus(s->desk), 1);
+	second = t[1].view.camera.ahead;
+	stand_type(s, "y");
+	stand_type(s, "f");
+	assert_true(vec3_dot(t[0].view.camera.ahead, first) > 1 - 1e-12);
+	assert_true(vec3_dot(t[1].view.camera.ahead, second) < 0.999);
+	assert_true(world_sight(s->world)->has_beside);
+	/* the seven take its place, and give it back */
+	world_sight(s->world)->all_curvatures = true;
+	world_touch(s->world);
+	desk_take_dirty(s->desk);
+	desk_tiles(s->desk, &n);
+	assert_int_equal(n, 7);
+	stand_leaf(s, "V188");
+	assert_string_equal(stand_field(s, "Views")->value, "side");
+	stand_click_with(s, HIT_CHOICE, 0, 0, 0);
+	stand_key(s, KEY_ENTER);
+	desk_tiles(s->desk, &n);
+	assert_int_equal(n, 1);
+}
+
+static void a_child_stands_below_its_parent(void **state)
+{
+	struct stand *s = *state;
+	int parent = stand_add_plate(s, "plate"), n;
+	double x;
+
+	stand_key(s, KEY_HOME);
+	stand_leaf(s, "V188");
+	stand_click_with(s, HIT_CHOICE, 0, 2, 0);
+	stand_key(s, KEY_ENTER);
+	const struct desk_tile *t = desk_tiles(s->desk, &n);
+	assert_int_equal(n, 2);
+	assert_int_equal(t[0].view.only, parent);
+	assert_int_equal(t[1].view.only, -1); /* none is there */
+	x = t[0].view.camera.eye.x;
+	stand_leaf(s, "V185");
+	stand_type(s, "0,0,1");
+	stand_click(s, HIT_CHOICE, 3); /* a copy */
+	stand_key(s, KEY_ENTER);
+	t = desk_tiles(s->desk, &n);
+	int child = world_current(s->world, false)->id;
+	assert_int_not_equal(child, parent);
+	assert_int_equal(t[0].view.only, parent);
+	assert_int_equal(t[1].view.only, child);
+	desk_move(s->desk, 400, t[1].box.y + 100); /* both turn, to be compared */
+	desk_press(s->desk, BUTTON_LEFT, 0);
+	desk_move(s->desk, 480, t[1].box.y + 60);
+	desk_release(s->desk, BUTTON_LEFT);
+	assert_true(t[0].view.camera.eye.x != x);
+	assert_true(t[0].view.camera.eye.x == t[1].view.camera.eye.x);
+	world_select(s->world, parent, NULL); /* the child is shown of its parent, too */
+	desk_take_dirty(s->desk);
+	assert_int_equal(desk_tiles(s->desk, &n)[1].view.only, child);
+}
+
+static void the_plane_of_parameters_is_a_view(void **state)
+{
+	struct stand *s = *state;
+	int id = stand_add_plate(s, "plate"), n;
+
+	stand_key(s, KEY_HOME);
+	stand_type(s, "tt"); /* no child to be shown */
+	const struct desk_tile *t = desk_tiles(s->desk, &n);
+	assert_int_equal(n, 2);
+	assert_true(t[1].is_uv && !t[0].is_uv);
+	assert_true(t[1].box.x > t[0].box.x && t[1].box.y == t[0].box.y);
+	struct box_px b = panel_uv_square(&t[1].box);
+	struct vec3 ahead = t[0].view.camera.ahead;
+	/* the middle of the square is that of the domain; above is more v */
+	desk_move(s->desk, b.x + b.width / 2, b.y + b.height / 4);
+	desk_press(s->desk, BUTTON_RIGHT, 0);
+	desk_release(s->desk, BUTTON_RIGHT);
+	assert_int_equal(world_marks(s->world), 1);
+	assert_int_equal(world_mark(s->world, 0)->thing, id);
+	assert_true(fabs(world_mark(s->world, 0)->u - 0.5) < 1e-9);
+	double v = world_mark(s->world, 0)->v;
+	assert_true(v > 0.7 && v < 0.8);
+	/* what is under the mouse stays there while it is zoomed, and moves with it while it is panned */
+	for (int i = 0; i < 2; i++) {
+		if (i) {
+			desk_press(s->desk, BUTTON_LEFT, 0);
+			desk_move(s->desk, b.x + b.width / 2 + 50, b.y + b.height / 4 + 30);
+			desk_release(s->desk, BUTTON_LEFT);
+		} else {
+			desk_scroll(s->desk, 3);
+		}
+		desk_press(s->desk, BUTTON_RIGHT, 0);
+		desk_release(s->desk, BUTTON_RIGHT);
+		const struct mark *m = world_mark(s->world, world_marks(s->world) - 1);
+		assert_true(fabs(m->u - 0.5) < 1e-9 && fabs(m->v - v) < 1e-9);
+	}
+	assert_true(vec3_dot(desk_tiles(s->desk, &n)[0].view.camera.ahead, ahead) > 1 - 1e-12);
+	stand_paint(s);
+}
+
 static void the_probe_is_kept_as_a_mark(void **state)
 {
 	struct stand *s = *state;
@@ -145,6 +261,9 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		TEST(the_mouse_turns_and_words_tell),
+		TEST(two_views_of_the_same_turn_by_themselves),
+		TEST(a_child_stands_below_its_parent),
+		TEST(the_plane_of_parameters_is_a_view),
 		TEST(the_probe_is_kept_as_a_mark),
 		TEST(the_light_is_dragged_live_and_taken_back),
 		TEST(a_color_is_seen_while_it_is_chosen),

@@ -205,6 +205,25 @@ struct empty_model {
 	const char *const *recent;
 	int n;
 };
+/* The plane of a surface's parameters: u to the right, v upward, both ranges as long as the square. */
+enum uv_line_kind { UV_LINE_CURVE, UV_LINE_CURRENT, UV_LINE_TRIM, UV_LINE_NET };
+struct uv_line {
+	enum uv_line_kind kind;
+	const double *uv; /* n pairs */
+	int n;
+};
+struct uv_model {
+	double range[2][2];  /* of u and v that is seen; empty: there is no surface */
+	double domain[2][2]; /* of the surface */
+	const double *knots[2];
+	int n_knots[2];
+	const struct uv_line *lines;
+	const double *points, *marks; /* control points, and places kept: pairs */
+	int n_lines, n_points, n_marks;
+	int hover; /* control point under the mouse, -1: none */
+	bool has_probe;
+	double probe[2];
+};
 struct list_model { /* plain lists: messages, questions before loss of work */
 	const char *title, *const *lines;
 	int n, scroll; /* scroll: the first line shown */
@@ -223,6 +242,10 @@ void panel_foot(cairo_t *cr, const struct layout *l, const struct foot_model *m,
                 const struct look *k, struct hits *h);
 void panel_heading(cairo_t *cr, const struct box_px *view, const char *title, const char *note,
                    bool strong, const struct look *k);
+/* In place of a view; its heading is painted as that of a view. */
+void panel_uv(cairo_t *cr, const struct box_px *pane, const struct uv_model *m,
+              const struct look *k);
+struct box_px panel_uv_square(const struct box_px *pane); /* where the range lies */
 /* Beside (x, y), within the view. */
 void panel_probe(cairo_t *cr, const struct box_px *view, double x, double y,
                  const struct probe_model *m, const struct look *k);
