@@ -71,7 +71,8 @@ static enum status find_shown(struct drawing *d)
 	const int n = world_count(d->world);
 	d->shown = calloc((size_t)n + 1, sizeof *d->shown);
 	d->things = calloc((size_t)n + 1, sizeof *d->things);
-	if (!d->shown || !d->things)
+	d->in_view = calloc((size_t)n + 1, sizeof *d->in_view);
+	if (!d->shown || !d->things || !d->in_view)
 		return ST_RESOURCE;
 	for (int k = 0; k < n; k++) {
 		const struct Ful *f = world_at(d->world, k);
@@ -138,6 +139,34 @@ static void find_matrix(struct drawing *d)
 	d->frame.pixel_depth = flat ? 2 * pixel / (f - n) : 2 * f * n / (f - n) / (z * z) * pixel;
 }
 
+/* A box all of whose corners lie beyond the same side of the picture is not in it. */
+static bool box_in_view(const struct drawing *d, const struct box *b)
+{
+	const double *m = d->frame.matrix;
+	const double room = 1 + 16 * d->frame.scale / fmin(d->camera.width, d->camera.height);
+	int beyond[4] = { 0 };
+	for (int i = 0; i < 8; i++) {
+		const double p[3] = { i & 1 ? b->hi.x : b->lo.x, i & 2 ? b->hi.y : b->lo.y,
+			              i & 4 ? b->hi.z : b->lo.z };
+		double c[4];
+		for (int k = 0; k < 4; k++)
+			c[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
+		for (int k = 0; k < 2; k++) {
+			beyond[2 * k] += c[k] < -room * c[3];
+			beyond[2 * k + 1] += c[k] > room * c[3];
+		}
+	}
+	return beyond[0] < 8 && beyond[1] < 8 && beyond[2] < 8 && beyond[3] < 8;
+}
+
+/* Quills stand out of the box. */
+static void find_in_view(struct drawing *d)
+{
+	for (int i = 0; i < d->n_shown; i++)
+		d->in_view[i] =
+		        d->things[i]->display.porcupine || box_in_view(d, &d->shown[i]->box);
+}
+
 static void find_light(struct drawing *d)
 {
 	const struct camera *c = &d->camera;
@@ -202,6 +231,7 @@ enum status drawing_init(struct drawing *d, struct view *v, const struct world *
 		box_add_point(&d->box, vec3(0, 0, 0));
 	find_planes(d);
 	find_matrix(d);
+	find_in_view(d);
 	find_light(d);
 	find_ground(d);
 	return ST_OK;
@@ -211,6 +241,8 @@ void drawing_finish(struct drawing *d)
 {
 	free((void *)d->shown);
 	free((void *)d->things);
+	free(d->in_view);
+	d->in_view = NULL;
 	d->shown = NULL;
 	d->things = NULL;
 }

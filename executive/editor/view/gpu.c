@@ -19,8 +19,8 @@ void gpu_mesh_load(struct gpu_mesh *g, const struct mesh_made *m)
 	             GL_STATIC_DRAW);
 	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
 	glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-	             (GLsizeiptr)m->n_indices * (GLsizeiptr)sizeof(unsigned), m->indices,
-	             GL_STATIC_DRAW);
+	             (GLsizeiptr)(m->n_indices + m->n_border) * (GLsizeiptr)sizeof(unsigned),
+	             m->indices, GL_STATIC_DRAW);
 	static const size_t at[3] = { offsetof(struct mesh_vertex_made, position),
 		                      offsetof(struct mesh_vertex_made, normal),
 		                      offsetof(struct mesh_vertex_made, uv) };
@@ -31,6 +31,7 @@ void gpu_mesh_load(struct gpu_mesh *g, const struct mesh_made *m)
 	}
 	glBindVertexArray(0);
 	g->n = m->n_indices;
+	g->n_border = m->n_border;
 }
 
 void gpu_mesh_finish(struct gpu_mesh *g)

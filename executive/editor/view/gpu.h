@@ -10,7 +10,7 @@
 /* Triangles. A zeroed one is empty. */
 struct gpu_mesh {
 	GLuint array, vertices, indices;
-	int n; /* indices */
+	int n, n_border; /* indices: of triangles; of the borders' edges, behind them */
 };
 void gpu_mesh_load(struct gpu_mesh *g, const struct mesh_made *m);
 void gpu_mesh_finish(struct gpu_mesh *g);

@@ -1,6 +1,7 @@
 /* mesh_made.c - triangles of a surface made ready for the graphics memory. */
 #include "mesh_made.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 
 #include "tessellate.h"
@@ -66,6 +67,88 @@ static enum status gather(struct mesh_made *out, const struct mesh *m, const str
 	return st;
 }
 
+/* An edge between points a < b of the mesh, and its vertices. */
+struct edge {
+	int a, b;
+	unsigned vertex[2];
+};
+
+static int by_points(const void *x, const void *y)
+{
+	const struct edge *p = x, *q = y;
+	return p->a != q->a ? p->a - q->a : p->b - q->b;
+}
+
+static uint64_t mixed(int point)
+{
+	uint64_t x = (uint64_t)point + 1;
+	x = (x ^ x >> 31) * 0x9E3779B97F4A7C15U;
+	return x ^ x >> 29;
+}
+
+/*
+ * Which points lie on a border: an edge inside is run through both ways, and the neighbours that a point
+ * is left to cancel those that it is come to from.
+ */
+static uint64_t *border_points(const struct mesh *m)
+{
+	uint64_t *sum = calloc((size_t)m->n_points + 1, sizeof *sum);
+	for (int i = 0; i < m->n_triangles && sum; i++)
+		for (int k = 0; k < 3; k++) {
+			const int a = m->triangles[i][k].point;
+			const int b = m->triangles[i][(k + 1) % 3].point;
+			sum[a] += mixed(b);
+			sum[b] -= mixed(a);
+		}
+	return sum;
+}
+
+/* Edges of one triangle only, behind the triangles. */
+static enum status add_border(struct mesh_made *out, const struct mesh *m)
+{
+	uint64_t *at_border = border_points(m);
+	struct edge *edges = NULL;
+	unsigned *indices = NULL;
+	int n = 0, room = 0;
+	enum status st = at_border ? ST_OK : ST_RESOURCE;
+	for (int i = 0; i < 3 * m->n_triangles && st == ST_OK; i++) {
+		const int j = i % 3 == 2 ? i - 2 : i + 1;
+		int a = m->triangles[i / 3][i % 3].point, b = m->triangles[j / 3][j % 3].point;
+		if (!at_border[a] || !at_border[b])
+			continue;
+		if (n == room) {
+			room = room ? 2 * room : 256;
+			struct edge *more = reallocarray(edges, (size_t)room, sizeof *edges);
+			if (!more) {
+				st = ST_RESOURCE;
+				break;
+			}
+			edges = more;
+		}
+		edges[n++] = (struct edge){ a < b ? a : b,
+			                    a < b ? b : a,
+			                    { out->indices[i], out->indices[j] } };
+	}
+	if (n)
+		qsort(edges, (size_t)n, sizeof *edges, by_points);
+	if (st == ST_OK)
+		indices = reallocarray(out->indices, (size_t)out->n_indices + 2 * (size_t)n + 1,
+		                       sizeof *indices);
+	if (indices)
+		out->indices = indices;
+	else
+		st = ST_RESOURCE;
+	for (int i = 0, next; i < n && st == ST_OK; i = next) {
+		for (next = i + 1; next < n && !by_points(&edges[i], &edges[next]);)
+			next++;
+		for (int k = 0; k < 2 && next == i + 1; k++)
+			out->indices[out->n_indices + out->n_border++] = edges[i].vertex[k];
+	}
+	free(edges);
+	free(at_border);
+	return st;
+}
+
 enum status mesh_made_init(struct mesh_made *out, const struct surface *s, const struct trim *trim,
                            struct vec3 origin, double chord, double angle)
 {
@@ -78,6 +161,8 @@ enum status mesh_made_init(struct mesh_made *out, const struct surface *s, const
 	enum status st = tessellate(&m, &face, 1, &limits, NULL, &report_none);
 	if (st == ST_OK)
 		st = gather(out, &m, s, origin);
+	if (st == ST_OK)
+		st = add_border(out, &m);
 	mesh_finish(&m);
 	if (st != ST_OK)
 		mesh_made_finish(out);

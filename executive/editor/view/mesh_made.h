@@ -12,9 +12,9 @@ struct mesh_vertex_made {
 };
 
 struct mesh_made {
-	struct mesh_vertex_made *vertices; /* owned */
-	unsigned *indices;                 /* owned; three a triangle */
-	int n_vertices, n_indices;
+	struct mesh_vertex_made *vertices;   /* owned */
+	unsigned *indices;                   /* owned; three a triangle, then two a border's edge */
+	int n_vertices, n_indices, n_border; /* indices: of triangles; of borders */
 };
 void mesh_made_finish(struct mesh_made *m); /* a zeroed one is fine */
 

@@ -10,6 +10,7 @@ enum {
 static const double chord_px = 0.2;      /* of triangles from their surface, device px */
 static const double line_px = 0.1;       /* of chords from their curve */
 static const double coarse_chord = 1e-3; /* of the scene's size */
+static const double border_back = 2;     /* px, of borders behind their surface */
 static const double cut_seconds = 0.06;  /* a drawing may spend on triangles */
 
 /* Shading as in the shading worker's pictures. */
@@ -43,6 +44,20 @@ static double smallest_pixel(const struct drawing *d)
 	return camera_pixel(c, at);
 }
 
+static const struct shape_mesh *finest(const struct shape *x)
+{
+	return x->fine.chord > 0 && x->fine.chord <= x->coarse.chord ? &x->fine : &x->coarse;
+}
+
+/* What was last seen at rest is not too much to be moved. */
+static bool fine_is_quick(struct shape *const *solid, int n)
+{
+	double sum = 0;
+	for (int i = 0; i < n; i++)
+		sum += finest(solid[i])->triangles;
+	return sum <= MOVING_TRIANGLES;
+}
+
 static enum status make_triangles(struct drawing *d, double pixel)
 {
 	struct shape **solid = calloc((size_t)d->n_shown + 1, sizeof *solid);
@@ -50,10 +65,11 @@ static enum status make_triangles(struct drawing *d, double pixel)
 	if (!solid)
 		return report_error(d->report, ST_RESOURCE, "cannot draw: memory ran out");
 	for (int i = 0; i < d->n_shown; i++)
-		if (look_of(d, d->things[i]) != LOOK_WIRE)
+		if (d->in_view[i] && look_of(d, d->things[i]) != LOOK_WIRE)
 			solid[n++] = d->shown[i];
 	enum status st = shapes_cut_coarse(&d->view->shapes, solid, n,
 	                                   coarse_chord * box_diagonal(&d->box), MOVING_TRIANGLES);
+	d->fine = st == ST_OK && (!d->state->moving || fine_is_quick(solid, n));
 	if (st == ST_OK && !d->state->moving)
 		st = shapes_cut(solid, n, false, chord_px * pixel, FINE_TRIANGLES, cut_seconds,
 		                &d->more);
@@ -85,7 +101,7 @@ static struct rgb surface_color(const struct Ful *f)
 
 static void draw_surface(struct drawing *d, const struct Ful *f, struct shape *x)
 {
-	const struct shape_mesh *m = !d->state->moving && x->fine.chord > 0 ? &x->fine : &x->coarse;
+	const struct shape_mesh *m = d->fine ? finest(x) : &x->coarse;
 	const GLint *u = d->frame.programs->uniform[PROGRAM_SURFACE];
 	const struct sight *s = world_sight((struct world *)d->world);
 	const struct rgb color = surface_color(f);
@@ -109,7 +125,12 @@ static void draw_surface(struct drawing *d, const struct Ful *f, struct shape *x
 	const bool mapped = look_of(d, f) == LOOK_MAP && map_use(d, f->id);
 	glUniform1i(u[UNIFORM_LOOK], mapped);
 	glBindVertexArray(m->gpu.array);
+	glUniform1f(u[UNIFORM_BIAS], 0);
 	glDrawElements(GL_TRIANGLES, m->gpu.n, GL_UNSIGNED_INT, NULL);
+	/* Chords of neighbours part by less than a px: borders are as wide, a little behind. */
+	glUniform1f(u[UNIFORM_BIAS], (float)(border_back * d->frame.pixel_depth));
+	glDrawElements(GL_LINES, m->gpu.n_border, GL_UNSIGNED_INT,
+	               (const void *)((size_t)m->gpu.n * sizeof(unsigned)));
 	glBindVertexArray(0);
 }
 
@@ -123,7 +144,7 @@ static void draw_surfaces(struct drawing *d)
 	glEnable(GL_POLYGON_OFFSET_FILL);
 	glPolygonOffset(1.5F, 2);
 	for (int i = 0; i < d->n_shown; i++)
-		if (look_of(d, d->things[i]) != LOOK_WIRE)
+		if (d->in_view[i] && look_of(d, d->things[i]) != LOOK_WIRE)
 			draw_surface(d, d->things[i], d->shown[i]);
 	glDisable(GL_POLYGON_OFFSET_FILL);
 }
@@ -144,7 +165,7 @@ static void draw_wires(struct drawing *d)
 	const struct rgb on_map = { 0x14 / 255.0, 0x17 / 255.0, 0x1A / 255.0 };
 	for (int i = 0; i < d->n_shown; i++) {
 		const struct Ful *f = d->things[i];
-		if (f->entity.kind != ENTITY_SURFACE)
+		if (f->entity.kind != ENTITY_SURFACE || !d->in_view[i])
 			continue;
 		const enum surface_look look = look_of(d, f);
 		const bool own =
@@ -217,7 +238,8 @@ static void draw_curves(struct drawing *d)
 	const struct Ful *current = world_current(d->world, true);
 	for (int last = 0; last < 2; last++)
 		for (int i = 0; i < d->n_shown; i++)
-			if (ful_is_curve(d->things[i]) && (d->things[i] == current) == last)
+			if (ful_is_curve(d->things[i]) && d->in_view[i] &&
+			    (d->things[i] == current) == last)
 				draw_curve(d, i, last);
 }
 
@@ -249,7 +271,7 @@ static void draw_nets(struct drawing *d)
 		const struct Ful *f = d->things[i];
 		const bool list = f->entity.kind == ENTITY_POINTS;
 		const bool pink = f == current || list;
-		if (!f->display.net && !list)
+		if ((!f->display.net && !list) || !d->in_view[i])
 			continue;
 		struct gpu_style net = { .color = drawing_color(d, TOKEN_NET),
 			                 .alpha = 0.55,
@@ -317,6 +339,8 @@ enum status scene_draw(struct drawing *d)
 	const double pixel = smallest_pixel(d);
 	enum status st = make_triangles(d, pixel);
 	for (int i = 0; i < d->n_shown && st == ST_OK; i++) {
+		if (!d->in_view[i])
+			continue;
 		/* while moving the lines that there are do */
 		if (d->state->moving && d->shown[i]->tolerance > 0 &&
 		    d->shown[i]->tolerance < 8 * line_px * pixel)

@@ -7,6 +7,7 @@ static const char surface_vertex[] = "#version 330 core\n"
                                      "layout(location = 1) in vec3 normal;\n"
                                      "layout(location = 2) in vec2 parameter;\n"
                                      "uniform mat4 matrix;\n"
+                                     "uniform float bias;\n"
                                      "out vec3 place, across;\n"
                                      "out vec2 uv;\n"
                                      "void main()\n"
@@ -15,6 +16,7 @@ static const char surface_vertex[] = "#version 330 core\n"
                                      "	across = normal;\n"
                                      "	uv = parameter;\n"
                                      "	gl_Position = matrix * vec4(position, 1.0);\n"
+                                     "	gl_Position.z += bias * gl_Position.w;\n"
                                      "}\n";
 
 /*

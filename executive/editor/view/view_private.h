@@ -108,7 +108,9 @@ struct drawing {
 	enum theme set;            /* whose lines and texts stand out from the ground */
 	struct shape **shown;      /* owned; surfaces and curves that are on */
 	const struct Ful **things; /* owned; the same */
+	bool *in_view;             /* owned; of those, which may be in the picture */
 	int n_shown;
+	bool fine;      /* the fine triangles are drawn, of those that have them */
 	bool has_map;   /* some surface shows values */
 	bool has_image; /* an image stands in place of the things */
 	bool more;
