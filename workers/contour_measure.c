@@ -17,8 +17,9 @@ struct figure {
 struct figures {
 	struct figure *list; /* owned */
 	size_t n;
-	struct section_side *sides; /* owned: each side, and its mirror image or none */
-	struct curve *mirrors;      /* owned, one a side */
+	struct section_side *borders; /* owned: the curves of all chains in order */
+	struct section_side *sides;   /* owned: each side, and its mirror image or none */
+	struct curve *mirrors;        /* owned, one a side */
 	size_t n_mirrors;
 };
 
@@ -28,6 +29,7 @@ static void figures_finish(struct figures *f)
 		curve_finish(&f->mirrors[i]);
 	free(f->mirrors);
 	free(f->sides);
+	free(f->borders);
 	free(f->list);
 }
 
@@ -69,23 +71,30 @@ static enum status mirrored_add(struct figures *f, const struct section_side *si
 	return ST_OK;
 }
 
-static enum status figures_make(struct figures *f, const struct contours *c,
+static enum status figures_make(struct figures *f, const struct level_work *l, int value,
                                 const struct contour_set *set, bool half)
 {
+	const struct level_chains *c = &l->chains[value];
 	size_t n = 0;
 	for (size_t i = 0; i < c->n; i++)
 		n += c->list[i].n;
+	f->borders = malloc(sizeof *f->borders * (n + 1));
 	const bool by_name = set->kind < CONTOUR_PLANES;
 	const bool mirrored = half && by_name && set->kind != CONTOUR_BUTTOCKS;
 	f->list = calloc(2 * c->n + 1, sizeof *f->list);
 	f->sides = calloc(2 * n + 1, sizeof *f->sides);
 	f->mirrors = calloc(n + 1, sizeof *f->mirrors);
-	if (!f->list || !f->sides || !f->mirrors)
+	if (!f->list || !f->borders || !f->sides || !f->mirrors)
 		return ST_RESOURCE;
+	for (size_t i = 0; i < n; i++) {
+		const struct level_part *p = &c->parts[i];
+		const struct level_result *x = level_work_result(l, value, p->face);
+		f->borders[i] = (struct section_side){ &x->branches[p->branch].space, p->reversed };
+	}
 	enum status st = ST_OK;
 	for (size_t i = 0; st == ST_OK && i < c->n; i++) {
-		const struct contour *one = &c->list[i];
-		const struct section_side *sides = c->sides + one->first;
+		const struct level_chain *one = &c->list[i];
+		const struct section_side *sides = f->borders + one->first;
 		if (!by_name && !one->closed)
 			continue;
 		if (mirrored)
@@ -138,14 +147,14 @@ static enum status figures_sum(struct contour_measure *out, struct figures *f, s
 	return ST_OK;
 }
 
-enum status contour_measure(struct contour_measure *out, const struct contours *c,
+enum status contour_measure(struct contour_measure *out, const struct level_work *l, int i,
                             const struct contour_set *set, bool half, const struct section_lid *lid)
 {
 	struct figures f = { .n = 0 };
 	*out = (struct contour_measure){ .centroid = { NAN, NAN, NAN } };
 	if (set->kind == CONTOUR_CYLINDERS)
 		return ST_OK;
-	enum status st = figures_make(&f, c, set, half);
+	enum status st = figures_make(&f, l, i, set, half);
 	if (st == ST_OK)
 		st = figures_sum(out, &f, set->field.direction,
 		                 set->kind == CONTOUR_STATIONS ? lid : NULL);

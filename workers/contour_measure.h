@@ -2,8 +2,9 @@
 #ifndef BATTEN_CONTOUR_MEASURE_H
 #define BATTEN_CONTOUR_MEASURE_H
 
-#include "contour_join.h"
 #include "contour_sets.h"
+#include "level_work.h"
+#include "section.h"
 
 struct contour_measure {
 	bool known;           /* there is a figure to measure */
@@ -12,12 +13,12 @@ struct contour_measure {
 };
 
 /*
- * Measure all curves of one plane; what lies inside another is a hole in it, what lies in a hole
+ * Measure all curves of one plane, the i-th of the work; what lies inside another is a hole in it, what lies in a hole
  * counts again. Of planes by direction closed curves count. Of stations, waterlines and buttocks open
  * ones do, too, closed by a straight line; stations and waterlines of a half hull with their
  * mirror images. lid: stations are measured below it; may be NULL. Errors: ST_RESOURCE.
  */
-enum status contour_measure(struct contour_measure *out, const struct contours *c,
+enum status contour_measure(struct contour_measure *out, const struct level_work *l, int i,
                             const struct contour_set *set, bool half,
                             const struct section_lid *lid);
 

@@ -8,34 +8,8 @@
 #include "json.h"
 #include "lines_plan.h"
 
-/* What one value, or all of them, came to. */
-struct total {
-	size_t branches, closed, undecided;
-	double length, max_error;
-};
-
-static struct total value_total(const struct contour_state *s, int i)
-{
-	struct total t = { .branches = s->joined[i].n, .closed = s->joined[i].n_closed };
-	for (int k = 0; k < s->level.n_surfaces; k++) {
-		const struct level_result *x = level_work_result(&s->level, i, k);
-		t.length += x->length;
-		t.max_error = fmax(t.max_error, x->max_error);
-		t.undecided += x->n_undecided;
-	}
-	return t;
-}
-
-static void total_set(json_t *o, const struct total *t)
-{
-	json_set_int(o, "branches", (int64_t)t->branches);
-	json_set_int(o, "closed", (int64_t)t->closed);
-	json_set_number(o, "length", t->length);
-	json_set_number(o, "max_error", t->max_error);
-	json_set_int(o, "undecided", (int64_t)t->undecided);
-}
-
-static json_t *level_figures(const struct contour_state *s, int i, const struct total *t)
+static json_t *level_figures(const struct work *w, const struct contour_state *s, int i,
+                             const struct level_total *t)
 {
 	int place;
 	const struct contour_set *set = contour_sets_at(&s->sets, i, &place);
@@ -44,7 +18,7 @@ static json_t *level_figures(const struct contour_state *s, int i, const struct 
 	json_set_text(o, "kind", s->kinds[i]);
 	json_set_int(o, "number", set->first + place);
 	json_set_number(o, "value", s->values[i]);
-	total_set(o, t);
+	level_total_set(w, t, o);
 	if (m->known && isfinite(m->centroid.x)) {
 		centroid = json_array();
 		json_array_append_new(centroid, json_real_or_null(m->centroid.x));
@@ -57,20 +31,17 @@ static json_t *level_figures(const struct contour_state *s, int i, const struct 
 	return o;
 }
 
-json_t *contour_figures(const struct contour_state *s)
+json_t *contour_figures(const struct work *w, const struct contour_state *s)
 {
-	struct total sum = { 0 };
+	struct level_total sum = { 0 };
 	json_t *o = json_object(), *levels = json_array();
 	for (int i = 0; i < s->sets.n_values; i++) {
-		const struct total t = value_total(s, i);
-		sum.branches += t.branches;
-		sum.closed += t.closed;
-		sum.undecided += t.undecided;
-		sum.length += t.length;
-		sum.max_error = fmax(sum.max_error, t.max_error);
-		json_array_append_new(levels, level_figures(s, i, &t));
+		const struct level_total t = level_curves_total(&s->level, i);
+		level_total_add(&sum, &t);
+		json_array_append_new(levels, level_figures(w, s, i, &t));
 	}
-	total_set(o, &sum);
+	level_curves_tell(w, s->tolerance, &sum);
+	level_total_set(w, &sum, o);
 	json_object_set_new(o, "levels", levels);
 	return o;
 }
@@ -93,7 +64,7 @@ enum status contour_table_write(void *data, const char *path, const struct repor
 		int place;
 		const struct contour_set *set = contour_sets_at(&s->sets, i, &place);
 		const struct contour_measure *m = &s->measures[i];
-		const struct total sum = value_total(s, i);
+		const struct level_total sum = level_curves_total(&s->level, i);
 		text_addf(&t, "%s,%d", s->kinds[i], set->first + place);
 		column(&t, true, s->values[i]);
 		text_addf(&t, ",%zu,%zu", sum.branches, sum.closed);
@@ -149,9 +120,8 @@ enum status contour_plan_write(void *data, const char *path, const struct report
 	const struct contour_state *s = w->state;
 	size_t n = 0, at = 0;
 	for (int i = 0; i < s->sets.n_values; i++)
-		n += s->joined[i].n > 0 ? s->joined[i].list[s->joined[i].n - 1].first +
-		                                  s->joined[i].list[s->joined[i].n - 1].n
-		                        : 0;
+		for (int k = 0; k < s->level.n_surfaces; k++)
+			n += level_work_result(&s->level, i, k)->n_branches;
 	struct plan_curve *curves = calloc(n + 1, sizeof *curves);
 	if (!curves)
 		return report_error(r, ST_RESOURCE, "no memory to draw the lines plan");

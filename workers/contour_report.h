@@ -4,22 +4,20 @@
 
 #include "contour_measure.h"
 #include "contour_sets.h"
-#include "level_work.h"
+#include "level_curves.h"
 
 /* The state of the worker. */
 struct contour_state {
 	struct contour_sets sets;
 	struct level_work level;
-	double tolerance, gap;
+	double tolerance;
 	double *values;                   /* owned, of all sets */
 	const char **kinds;               /* owned array */
-	struct contours *joined;          /* owned, one a value; filled by finish, like the rest */
-	struct contour_measure *measures; /* owned, one a value */
-	size_t *curves;                   /* owned: number of the joined curve, for each branch */
+	struct contour_measure *measures; /* owned, one a value; filled by finish */
 };
 
-/* New reference, NULL for want of memory. */
-json_t *contour_figures(const struct contour_state *s);
+/* New reference, NULL for want of memory; warns where curves miss the tolerance. */
+json_t *contour_figures(const struct work *w, const struct contour_state *s);
 
 /* For work_output, data the struct work. */
 work_writer contour_table_write, contour_plan_write;

@@ -4,9 +4,6 @@
 #include "contour_report.h"
 #include "level_curves.h"
 
-/* Where no gap is given: this part of the box. */
-static const double gap_share = 1e-5;
-
 static const struct param contours_params[] = {
 	PARAM_ROWS_CONTOURS,
 	{ .name = "draught",
@@ -14,13 +11,7 @@ static const struct param contours_params[] = {
 	  .unit = "file",
 	  .help = "height of the design waterline: stations are measured below it" },
 	PARAM_ROWS_LEVEL_TOLERANCE,
-	{ .name = "gap",
-	  .type = PARAM_REAL,
-	  .min = 0,
-	  .max = INFINITY,
-	  .unit = "file",
-	  .help = "curves on neighbouring surfaces are one where their ends are no farther apart "
-	          "(1e-5 of the size, four times the tolerance at least, where not given)" },
+	PARAM_ROW_GAP,
 	PARAM_ROW_SVG,
 	PARAM_ROW_VIEW("three-quarter"),
 	{ .name = "bow",
@@ -40,11 +31,7 @@ static void contours_end(struct work *w)
 	struct contour_state *s = w->state;
 	if (!s)
 		return;
-	for (int i = 0; s->joined && i < s->sets.n_values; i++)
-		contours_finish(&s->joined[i]);
-	free(s->joined);
 	free(s->measures);
-	free(s->curves);
 	free(s->values);
 	free(s->kinds);
 	level_work_finish(&s->level);
@@ -64,9 +51,8 @@ static enum status levels_begin(struct work *w, struct contour_state *s)
 	struct level_field *fields = calloc((size_t)n, sizeof *fields);
 	s->values = calloc((size_t)n, sizeof *s->values);
 	s->kinds = calloc((size_t)n, sizeof *s->kinds);
-	s->joined = calloc((size_t)n, sizeof *s->joined);
 	s->measures = calloc((size_t)n, sizeof *s->measures);
-	if (!fields || !s->values || !s->kinds || !s->joined || !s->measures) {
+	if (!fields || !s->values || !s->kinds || !s->measures) {
 		free(fields);
 		return no_memory(w);
 	}
@@ -92,9 +78,6 @@ static enum status contours_begin(struct work *w)
 	if (st != ST_OK)
 		return st;
 	s->tolerance = level_work_tolerance(w);
-	s->gap = work_has(w, "gap")
-	                 ? work_real(w, "gap")
-	                 : fmax(gap_share * box_diagonal(&s->sets.box), 4 * s->tolerance);
 	return levels_begin(w, s);
 }
 
@@ -110,52 +93,16 @@ static enum status contours_unit(struct work *w, size_t unit)
 	return level_work_unit(&s->level, w, unit);
 }
 
-/* Join the pieces of value i over the surfaces, and number them for the file. */
-static enum status value_join(struct contour_state *s, int i, size_t *numbers, size_t *n)
-{
-	size_t at = 0;
-	*n = 0;
-	for (int k = 0; k < s->level.n_surfaces; k++)
-		*n += level_work_result(&s->level, i, k)->n_branches;
-	const struct curve **pieces = malloc(sizeof *pieces * (*n + 1));
-	bool *closed = malloc(sizeof *closed * (*n + 1));
-	enum status st = pieces && closed ? ST_OK : ST_RESOURCE;
-	for (int k = 0; st == ST_OK && k < s->level.n_surfaces; k++) {
-		const struct level_result *x = level_work_result(&s->level, i, k);
-		for (size_t b = 0; b < x->n_branches; b++, at++) {
-			pieces[at] = &x->branches[b].space;
-			closed[at] = x->branches[b].closed;
-		}
-	}
-	struct contours *c = &s->joined[i];
-	if (st == ST_OK)
-		st = contours_join(c, pieces, closed, *n, s->gap);
-	for (size_t k = 0; st == ST_OK && k < c->n; k++)
-		for (size_t j = 0; j < c->list[k].n; j++)
-			numbers[c->pieces[c->list[k].first + j]] = k + 1;
-	free(pieces);
-	free(closed);
-	return st;
-}
-
 static enum status sections_make(struct work *w, struct contour_state *s)
 {
 	const struct section_lid lid = { { 0, 0, 1 },
 		                         work_has(w, "draught") ? work_real(w, "draught") : 0 };
-	size_t all = 0, at = 0;
-	for (int i = 0; i < s->level.n * s->level.n_surfaces; i++)
-		all += s->level.results[i].n_branches;
-	s->curves = malloc(sizeof *s->curves * (all + 1));
-	enum status st = s->curves ? ST_OK : ST_RESOURCE;
+	enum status st = ST_OK;
 	for (int i = 0; st == ST_OK && i < s->sets.n_values; i++) {
 		int place;
-		size_t n;
 		const struct contour_set *set = contour_sets_at(&s->sets, i, &place);
-		st = value_join(s, i, s->curves + at, &n);
-		if (st == ST_OK)
-			st = contour_measure(&s->measures[i], &s->joined[i], set, s->sets.half,
-			                     work_has(w, "draught") ? &lid : NULL);
-		at += n;
+		st = contour_measure(&s->measures[i], &s->level, i, set, s->sets.half,
+		                     work_has(w, "draught") ? &lid : NULL);
 	}
 	return st == ST_OK ? st : no_memory(w);
 }
@@ -179,13 +126,10 @@ static enum status contours_finish_work(struct work *w)
 		                  .map = { .lo = s->values[0] - one, .hi = s->values[last] + one },
 		                  .tolerance = s->tolerance,
 		                  .values = s->values,
-		                  .results = s->level.results,
+		                  .level = &s->level,
 		                  .n = s->sets.n_values,
-		                  .kinds = s->kinds,
-		                  .curves = s->curves };
-	level_curves_tell(w, s->tolerance, s->level.results,
-	                  (size_t)s->level.n * s->level.n_surfaces);
-	st = work_figures(w, contour_figures(s));
+		                  .kinds = s->kinds };
+	st = work_figures(w, contour_figures(w, s));
 	if (st == ST_OK)
 		st = work_output(w, ".contour", level_curves_write, &c);
 	if (st == ST_OK && work_flag(w, "svg"))
@@ -207,7 +151,7 @@ static const struct worker_output contours_outputs[] = {
 const struct worker worker = {
 	.name = "contours",
 	.title = "contours",
-	.version = 2,
+	.version = 3,
 	.help = "Traces all curves in which planes or cylinders cut the surfaces, joined over their "
 	        "borders, with area, centroid and girth of sections; stations, waterlines and "
 	        "buttocks of a ship as a lines plan. Trims are ignored.",

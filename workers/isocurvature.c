@@ -26,6 +26,8 @@ static const struct param isocurvature_params[] = {
 	  .max = LEVELS_MAX,
 	  .help = "how many values from the first to the last (11 where not given)" },
 	PARAM_ROWS_LEVEL_TOLERANCE,
+	PARAM_ROW_GAP,
+	PARAM_ROW_CREASE,
 	PARAM_ROW_SVG,
 	PARAM_ROW_VIEW("three-quarter"),
 	{ .name = NULL },
@@ -82,7 +84,7 @@ static enum status isocurvature_begin(struct work *w)
 	w->state = s;
 	if (!s)
 		return report_error(&w->report, ST_RESOURCE, "no memory for lines of curvature");
-	if (!(surface_size(w->surfaces[0]) > 0))
+	if (!(level_work_size(w) > 0))
 		return report_error(&w->report, ST_INPUT,
 		                    "the surface is a single point and has no curvature; choose "
 		                    "another entity");
@@ -131,7 +133,7 @@ static enum status isocurvature_finish(struct work *w)
 		                           .hi = reach > 0 ? reach : 1 },
 		                  .tolerance = s->tolerance,
 		                  .values = s->values,
-		                  .results = s->level.results,
+		                  .level = &s->level,
 		                  .n = s->n };
 	if (st == ST_OK)
 		st = work_figures(w, level_curves_figures(&c));
@@ -152,9 +154,10 @@ static const struct worker_output isocurvature_outputs[] = {
 const struct worker worker = {
 	.name = "isocurvature",
 	.title = "lines of constant curvature",
-	.version = 1,
+	.version = 2,
 	.help = "Traces all curves on a surface along which a curvature keeps its value, as splines in "
 	        "u,v and in space with their checked error; Gaussian curvature 0: the parabolic lines. Trims are ignored.",
+	.scene = true,
 	.params = isocurvature_params,
 	.outputs = isocurvature_outputs,
 	.begin = isocurvature_begin,

@@ -33,6 +33,8 @@ static const struct param isophotes_params[] = {
 	  .help = "how many angles (17 where not given: every 10 degrees)" },
 	PARAM_ROWS_LIGHT("0", "0"),
 	PARAM_ROWS_LEVEL_TOLERANCE,
+	PARAM_ROW_GAP,
+	PARAM_ROW_CREASE,
 	PARAM_ROW_SVG,
 	PARAM_ROW_VIEW("three-quarter"),
 	{ .name = NULL },
@@ -85,7 +87,7 @@ static enum status isophotes_begin(struct work *w)
 	w->state = s;
 	if (!s)
 		return report_error(&w->report, ST_RESOURCE, "no memory for isophotes");
-	if (!(surface_size(w->surfaces[0]) > 0))
+	if (!(level_work_size(w) > 0))
 		return report_error(&w->report, ST_INPUT,
 		                    "the surface is a single point and has no isophotes; choose "
 		                    "another entity");
@@ -129,7 +131,7 @@ static enum status isophotes_finish(struct work *w)
 		                  .map = { .lo = 0, .hi = 180 },
 		                  .tolerance = s->tolerance,
 		                  .values = s->angles,
-		                  .results = s->level.results,
+		                  .level = &s->level,
 		                  .n = s->n_angles };
 	if (st == ST_OK)
 		st = work_figures(w, level_curves_figures(&c));
@@ -149,9 +151,10 @@ static const struct worker_output isophotes_outputs[] = {
 const struct worker worker = {
 	.name = "isophotes",
 	.title = "isophotes",
-	.version = 2,
+	.version = 3,
 	.help = "Traces all curves on a surface along which the normal keeps its angle to the "
 	        "light, as splines in u,v and in space with their checked error. Trims are ignored.",
+	.scene = true,
 	.params = isophotes_params,
 	.outputs = isophotes_outputs,
 	.begin = isophotes_begin,

@@ -12,54 +12,68 @@ enum { LABEL_SIZE = 32 };
 
 #define TOLD_FROM 1.01
 
-static bool uv_asked(const struct level_curves *c)
-{
-	return work_real(c->work, "tolerance-uv") > 0;
-}
-
-static void figures_set(const struct level_curves *c, json_t *o, const struct level_result *x)
-{
-	json_set_int(o, "branches", (int64_t)x->n_branches);
-	json_set_int(o, "closed", (int64_t)x->n_closed);
-	json_set_number(o, "length", x->length);
-	json_set_number(o, "max_error", x->max_error);
-	if (uv_asked(c))
-		json_set_number(o, "max_error_uv", x->max_error_uv);
-	json_set_int(o, "undecided", (int64_t)x->n_undecided);
-}
-
 static const struct level_result *result_of(const struct level_curves *c, int i, int surface)
 {
-	return &c->results[(size_t)i * c->work->n_surfaces + surface];
+	return level_work_result(c->level, i, surface);
 }
 
-static void result_add(struct level_result *to, const struct level_result *x)
+struct level_total level_curves_total(const struct level_work *l, int i)
 {
-	to->n_branches += x->n_branches;
-	to->n_closed += x->n_closed;
-	to->length += x->length;
-	to->max_error = fmax(to->max_error, x->max_error);
-	to->max_error_uv = fmax(to->max_error_uv, x->max_error_uv);
-	to->n_undecided += x->n_undecided;
+	const struct level_chains *c = &l->chains[i];
+	struct level_total t = {
+		.branches = c->n, .closed = c->n_closed, .creases = c->creases, .step = c->step
+	};
+	for (int s = 0; s < l->n_surfaces; s++) {
+		const struct level_result *x = level_work_result(l, i, s);
+		t.length += x->length;
+		t.max_error = fmax(t.max_error, x->max_error);
+		t.max_error_uv = fmax(t.max_error_uv, x->max_error_uv);
+		t.undecided += x->n_undecided;
+	}
+	return t;
+}
+
+void level_total_add(struct level_total *to, const struct level_total *t)
+{
+	to->branches += t->branches;
+	to->closed += t->closed;
+	to->undecided += t->undecided;
+	to->creases += t->creases;
+	to->length += t->length;
+	to->max_error = fmax(to->max_error, t->max_error);
+	to->max_error_uv = fmax(to->max_error_uv, t->max_error_uv);
+	to->step = fmax(to->step, t->step);
+}
+
+void level_total_set(const struct work *w, const struct level_total *t, json_t *o)
+{
+	json_set_int(o, "branches", (int64_t)t->branches);
+	json_set_int(o, "closed", (int64_t)t->closed);
+	json_set_number(o, "length", t->length);
+	json_set_number(o, "max_error", t->max_error);
+	if (work_real(w, "tolerance-uv") > 0)
+		json_set_number(o, "max_error_uv", t->max_error_uv);
+	json_set_int(o, "undecided", (int64_t)t->undecided);
+	json_set_int(o, "creases", (int64_t)t->creases);
+	if (w->n_surfaces > 1)
+		json_set_number(o, "max_step", t->step);
 }
 
 json_t *level_curves_figures(const struct level_curves *c)
 {
-	struct level_result sum = { 0 };
+	struct level_total sum = { 0 };
 	json_t *o = json_object(), *levels = json_array();
-	level_curves_tell(c->work, c->tolerance, c->results, (size_t)c->n * c->work->n_surfaces);
 	for (int i = 0; i < c->n; i++) {
-		struct level_result one = { 0 };
+		const struct level_total one = level_curves_total(c->level, i);
 		json_t *row = json_object();
-		for (int s = 0; s < c->work->n_surfaces; s++)
-			result_add(&one, result_of(c, i, s));
 		if (c->value_name)
 			json_set_number(row, c->value_name, c->values[i]);
-		figures_set(c, row, &one);
+		level_total_set(c->work, &one, row);
 		json_array_append_new(levels, row);
-		result_add(&sum, &one);
+		level_total_add(&sum, &one);
 	}
-	figures_set(c, o, &sum);
+	level_curves_tell(c->work, c->tolerance, &sum);
+	level_total_set(c->work, &sum, o);
 	if (c->n > 1)
 		json_object_set_new(o, "levels", levels);
 	else
@@ -67,28 +81,22 @@ json_t *level_curves_figures(const struct level_curves *c)
 	return o;
 }
 
-void level_curves_tell(const struct work *w, double tolerance, const struct level_result *x,
-                       size_t n)
+void level_curves_tell(const struct work *w, double tolerance, const struct level_total *all)
 {
 	const double tolerance_uv = work_real(w, "tolerance-uv");
-	double error = 0, error_uv = 0;
-	for (size_t i = 0; i < n; i++) {
-		error = fmax(error, x[i].max_error);
-		error_uv = fmax(error_uv, x[i].max_error_uv);
-	}
 	/* what rounding adds to a tolerance near it is not worth a word */
-	if (error > TOLD_FROM * tolerance)
+	if (all->max_error > TOLD_FROM * tolerance)
 		report_warning(
 		        &w->report,
 		        "some curves are known to be within %g of the exact ones, not within "
 		        "the tolerance of %g; max_error of each tells which",
-		        error, tolerance);
-	if (tolerance_uv > 0 && error_uv > TOLD_FROM * tolerance_uv)
+		        all->max_error, tolerance);
+	if (tolerance_uv > 0 && all->max_error_uv > TOLD_FROM * tolerance_uv)
 		report_warning(
 		        &w->report,
 		        "some curves in u,v are known to be within %g of the exact ones, not "
 		        "within the tolerance of %g; max_error_uv of each tells which",
-		        error_uv, tolerance_uv);
+		        all->max_error_uv, tolerance_uv);
 }
 
 static enum status attribute_number(struct entity *e, const char *name, double x)
@@ -109,9 +117,9 @@ static enum status value_set(const struct level_curves *c, int i, struct entity 
 	return st == ST_OK && c->value_name ? attribute_number(e, c->value_name, c->values[i]) : st;
 }
 
-/* The `place`th branch of the file. */
+/* A branch, and the number of the curve over all surfaces that it is a part of. */
 static enum status branch_add(const struct level_curves *c, int i, int surface,
-                              const struct level_branch *b, size_t place, struct model *m)
+                              const struct level_branch *b, size_t number, struct model *m)
 {
 	struct entity e;
 	entity_init(&e, ENTITY_CURVE_ON_SURFACE);
@@ -121,15 +129,15 @@ static enum status branch_add(const struct level_curves *c, int i, int surface,
 		st = curve_copy(&e.space, &b->space);
 	if (st == ST_OK)
 		st = value_set(c, i, &e);
-	if (st == ST_OK && c->curves)
-		st = attribute_number(&e, "curve", (double)c->curves[place]);
+	if (st == ST_OK)
+		st = attribute_number(&e, "curve", (double)number);
 	if (st == ST_OK)
 		st = entity_set_attribute(&e, "closed", b->closed ? "yes" : "no");
 	if (st == ST_OK)
 		st = attribute_number(&e, "length", b->length);
 	if (st == ST_OK)
 		st = attribute_number(&e, "max_error", b->max_error);
-	if (st == ST_OK && uv_asked(c))
+	if (st == ST_OK && work_real(c->work, "tolerance-uv") > 0)
 		st = attribute_number(&e, "max_error_uv", b->max_error_uv);
 	if (st == ST_OK)
 		st = model_add(m, &e);
@@ -203,12 +211,40 @@ static enum status surface_add(const struct work *w, int i, struct model *m)
 	return st;
 }
 
+/* Surface by surface the curves of value i, and what stayed undecided. */
+static enum status value_fill(const struct level_curves *c, int i, struct model *m)
+{
+	const struct level_chains *chains = &c->level->chains[i];
+	const int n = c->level->n_surfaces;
+	size_t *first = calloc((size_t)n + 1, sizeof *first);
+	enum status st = first ? ST_OK : ST_RESOURCE;
+	for (int s = 0; first && s < n; s++)
+		first[s + 1] = first[s] + result_of(c, i, s)->n_branches;
+	size_t *number = first ? calloc(first[n] + 1, sizeof *number) : NULL;
+	for (size_t k = 0; number && k < chains->n; k++)
+		for (size_t p = 0; p < chains->list[k].n; p++) {
+			const struct level_part *x = &chains->parts[chains->list[k].first + p];
+			number[first[x->face] + x->branch] = k + 1;
+		}
+	if (!number)
+		st = ST_RESOURCE;
+	for (int s = 0; st == ST_OK && s < n; s++) {
+		const struct level_result *x = result_of(c, i, s);
+		for (size_t b = 0; st == ST_OK && b < x->n_branches; b++)
+			st = branch_add(c, i, s, &x->branches[b], number[first[s] + b], m);
+		if (st == ST_OK)
+			st = boxes_add(c, i, s, m);
+	}
+	free(number);
+	free(first);
+	return st;
+}
+
 /* The surfaces first, then value by value the curves on each and what stayed undecided. */
 static enum status curves_fill(const struct level_curves *c, struct model *m)
 {
 	const struct work *w = c->work;
 	struct text t = { 0 };
-	size_t place = 0;
 	int n;
 	const struct work_attribute *a = work_attributes(w, &n);
 	enum status st = w->file_unit ? model_set_text(&m->unit, w->file_unit) : ST_OK;
@@ -220,14 +256,8 @@ static enum status curves_fill(const struct level_curves *c, struct model *m)
 	text_finish(&t);
 	for (int s = 0; st == ST_OK && s < w->n_surfaces; s++)
 		st = surface_add(w, s, m);
-	for (int i = 0; i < c->n; i++)
-		for (int s = 0; st == ST_OK && s < w->n_surfaces; s++) {
-			const struct level_result *x = result_of(c, i, s);
-			for (size_t b = 0; st == ST_OK && b < x->n_branches; b++)
-				st = branch_add(c, i, s, &x->branches[b], place++, m);
-			if (st == ST_OK)
-				st = boxes_add(c, i, s, m);
-		}
+	for (int i = 0; st == ST_OK && i < c->n; i++)
+		st = value_fill(c, i, m);
 	return st;
 }
 
@@ -275,8 +305,9 @@ enum status level_curves_draw(void *data, const char *path, const struct report 
 	const struct work *w = c->work;
 	struct camera camera;
 	size_t n = 0, at = 0;
-	for (int i = 0; i < c->n * w->n_surfaces; i++)
-		n += c->results[i].n_branches;
+	for (int i = 0; i < c->n; i++)
+		for (int k = 0; k < w->n_surfaces; k++)
+			n += result_of(c, i, k)->n_branches;
 	struct picture_curve *curves = calloc(n + 1, sizeof *curves);
 	char *labels = calloc((size_t)c->n, LABEL_SIZE);
 	enum status st;

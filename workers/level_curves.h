@@ -5,8 +5,7 @@
 #include <jansson.h>
 
 #include "colormap.h"
-#include "level.h"
-#include "worker.h"
+#include "level_work.h"
 
 /* The results for n values on a worker's surfaces. All borrowed. */
 struct level_curves {
@@ -18,16 +17,23 @@ struct level_curves {
 	struct colormap map; /* colors of the values */
 	double tolerance;
 	const double *values;
-	const struct level_result *results; /* n x n_surfaces, value by value */
+	const struct level_work *level;
 	int n;
 	const char *const *kinds; /* attribute `kind` for each value; NULL: none */
-	const size_t *curves;     /* attribute `curve` for each branch, in the order of the file:
-	                             what is joined over surfaces has one number; NULL: none */
 };
 
+/* What one value, or all of them, came to; branches over all surfaces, joined. */
+struct level_total {
+	size_t branches, closed, undecided, creases;
+	double length, max_error, max_error_uv, step;
+};
+struct level_total level_curves_total(const struct level_work *l, int i);
+void level_total_add(struct level_total *to, const struct level_total *t);
+/* As figures; creases and max_step where there are. */
+void level_total_set(const struct work *w, const struct level_total *t, json_t *o);
+
 /* Nothing is silently wrong: a warning where curves miss the tolerance; max_error says the same. */
-void level_curves_tell(const struct work *w, double tolerance, const struct level_result *x,
-                       size_t n);
+void level_curves_tell(const struct work *w, double tolerance, const struct level_total *all);
 
 /* branches, closed, length, max_error, undecided over all values, and `levels` with the same for
  * each where there are several; warns as above. New reference, NULL for want of memory. */

@@ -2,18 +2,30 @@
 #include "level_work.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+#include "box.h"
+
+/* Borders this part of the size apart are one, where no gap is given. */
+static const double gap_share = 1e-5;
 
 /* Enough that progress moves. */
 enum { UNITS_WANTED = 400 };
 
 static const double tolerance_share = 1e-5;
 
-double level_work_tolerance(const struct work *w)
+double level_work_size(const struct work *w)
 {
 	double size = 0;
 	for (int s = 0; s < w->n_surfaces; s++)
 		size = fmax(size, surface_size(w->surfaces[s]));
-	return work_has(w, "tolerance") ? work_real(w, "tolerance") : tolerance_share * size;
+	return size;
+}
+
+double level_work_tolerance(const struct work *w)
+{
+	return work_has(w, "tolerance") ? work_real(w, "tolerance")
+	                                : tolerance_share * level_work_size(w);
 }
 
 void level_work_finish(struct level_work *l)
@@ -24,6 +36,11 @@ void level_work_finish(struct level_work *l)
 		if (l->levels)
 			level_destroy(l->levels[i]);
 	}
+	for (int i = 0; l->chains && i < l->n; i++)
+		level_chains_finish(&l->chains[i]);
+	level_faces_destroy(l->faces);
+	free(l->chains);
+	free(l->fields);
 	free(l->results);
 	free(l->levels);
 	free(l->first);
@@ -66,6 +83,32 @@ static enum status levels_create(struct level_work *l, const struct work *w,
 	return st;
 }
 
+/* How near borders must be to be one. */
+static double gap_read(const struct work *w, double tolerance)
+{
+	struct box all = box_empty();
+	if (work_has(w, "gap"))
+		return work_real(w, "gap");
+	for (int i = 0; i < w->n_surfaces; i++) {
+		const struct surface *s = w->surfaces[i];
+		for (int k = 0; k < s->n[0] * s->n[1]; k++)
+			box_add_point(&all, surface_get_point(s, k / s->n[1], k % s->n[1], NULL));
+	}
+	return fmax(gap_share * box_diagonal(&all), 4 * tolerance);
+}
+
+static enum status faces_make(struct level_work *l, const struct work *w)
+{
+	struct level_face *faces = calloc((size_t)l->n_surfaces, sizeof *faces);
+	if (!faces)
+		return ST_RESOURCE;
+	for (int i = 0; i < l->n_surfaces; i++)
+		faces[i].surface = w->surfaces[i];
+	enum status st = level_faces_create(&l->faces, faces, l->n_surfaces, l->gap);
+	free(faces);
+	return st;
+}
+
 enum status level_work_init(struct level_work *l, const struct work *w,
                             const struct level_field *fields, const double *names, int n,
                             double tolerance)
@@ -83,11 +126,16 @@ enum status level_work_init(struct level_work *l, const struct work *w,
 	l->results = calloc(all, sizeof *l->results);
 	l->first = calloc((size_t)w->n_surfaces + 1, sizeof *l->first);
 	l->heads = calloc((size_t)n, sizeof *l->heads);
-	if (!l->levels || !l->results || !l->first || !l->heads)
+	l->chains = calloc((size_t)n, sizeof *l->chains);
+	l->fields = malloc(sizeof *fields * (size_t)n);
+	if (!l->levels || !l->results || !l->first || !l->heads || !l->chains || !l->fields)
 		return report_error(&w->report, ST_RESOURCE, "no memory for %d curves on surfaces",
 		                    n);
 	for (int i = 0; i < n; i++)
 		l->heads[i] = (struct level_head){ fields[i].kind, names[i] };
+	memcpy(l->fields, fields, sizeof *fields * (size_t)n);
+	l->tolerance = tolerance;
+	l->gap = gap_read(w, tolerance);
 	enum status st = levels_create(l, w, fields, tolerance);
 	size_t wanted = (UNITS_WANTED + all - 1) / all;
 	for (int s = 0; st == ST_OK && s < w->n_surfaces; s++) {
@@ -152,6 +200,26 @@ static enum status surface_join(struct level_work *l, struct work *w, int i, int
 	return st;
 }
 
+/* In radians; the curves of planes and cylinders go over creases. */
+static double crease_of(const struct level_work *l, const struct work *w)
+{
+	const enum level_kind kind = l->fields[0].kind;
+	return kind == LEVEL_PLANE || kind == LEVEL_CYLINDER ? 0
+	                                                     : work_real(w, "crease") * M_PI / 180;
+}
+
+/* The results of field i become chains over all surfaces. */
+static enum status value_join(struct level_work *l, struct work *w, int i)
+{
+	const struct level_joining how = { &l->fields[i], l->tolerance,
+		                           crease_of(l, w) * M_PI / 180 };
+	enum status st = l->faces ? ST_OK : faces_make(l, w);
+	if (st == ST_OK)
+		st = level_chains_join(l->faces, &how, l->results + (size_t)i * l->n_surfaces,
+		                       &l->chains[i]);
+	return st == ST_OK ? st : report_error(&w->report, st, "no memory to join curves");
+}
+
 enum status level_work_join(struct level_work *l, struct work *w)
 {
 	enum status st = ST_OK;
@@ -159,6 +227,8 @@ enum status level_work_join(struct level_work *l, struct work *w)
 		work_phase(w, "join", (size_t)i, (size_t)l->n);
 		for (int s = 0; st == ST_OK && s < l->n_surfaces; s++)
 			st = work_cancelled(w) ? ST_CANCELLED : surface_join(l, w, i, s);
+		if (st == ST_OK)
+			st = value_join(l, w, i);
 	}
 	return st;
 }

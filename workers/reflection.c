@@ -58,6 +58,8 @@ static const struct param reflection_params[] = {
 	  .help = "distance from one light line to the next (an eighth of the diagonal of the "
 	          "surfaces' box where not given)" },
 	PARAM_ROWS_LEVEL_TOLERANCE,
+	PARAM_ROW_GAP,
+	PARAM_ROW_CREASE,
 	PARAM_ROW_SVG,
 	{ .name = NULL },
 };
@@ -231,7 +233,7 @@ static enum status reflection_finish(struct work *w)
 		                  .map = { .lo = 0, .hi = s->n + 1 },
 		                  .tolerance = s->tolerance,
 		                  .values = s->numbers,
-		                  .results = s->level.results,
+		                  .level = &s->level,
 		                  .n = s->n };
 	if (st == ST_OK)
 		st = work_figures(w, level_curves_figures(&c));
@@ -251,7 +253,7 @@ static const struct worker_output reflection_outputs[] = {
 const struct worker worker = {
 	.name = "reflection",
 	.title = "reflection lines",
-	.version = 2,
+	.version = 3,
 	.help = "Traces reflection lines, highlight lines or silhouettes of surfaces, as splines in "
 	        "u,v and in space with their checked error. Trims are ignored.",
 	.scene = true,

@@ -46,7 +46,7 @@ static void test_circle(void **state)
 	struct model m;
 	curves_read(&m, "sphere.isophote");
 	json_t *f = figures_of(&m);
-	assert_int_equal(json_object_size(f), 5);
+	assert_int_equal(json_object_size(f), 6);
 	assert_int_equal(json_int(f, "branches", -1), 1);
 	assert_int_equal(json_int(f, "closed", -1), 1);
 	assert_int_equal(json_int(f, "undecided", -1), 0);
@@ -88,11 +88,11 @@ static void test_levels(void **state)
 	json_t *f = figures_of(&m), *levels = json_object_get(f, "levels"), *row;
 	double length = 0;
 	size_t i;
-	assert_int_equal(json_object_size(f), 6);
+	assert_int_equal(json_object_size(f), 7);
 	assert_int_equal(json_array_size(levels), 5);
 	json_array_foreach(levels, i, row)
 	{
-		assert_int_equal(json_object_size(row), 6);
+		assert_int_equal(json_object_size(row), 7);
 		near(json_number(row, "angle", NAN), 30 + 30 * (double)i, 1e-12);
 		assert_int_equal(json_int(row, "branches", -1), 2);
 		assert_int_equal(json_int(row, "closed", -1), 2);

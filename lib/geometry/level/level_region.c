@@ -140,7 +140,7 @@ static int mark_at(const struct level_surface *s, const struct level_result *x, 
 		bool in = b->kind != LEVEL_GRAZE;
 		for (int d = 0; in && d < 2; d++)
 			in = (uv[d] >= b->lo[d] - near[d] && uv[d] <= b->hi[d] + near[d]) ||
-			     uv[d] + level_range(s, d) <= b->hi[d] + near[d];
+			     (s->net.closed[d] && uv[d] + level_range(s, d) <= b->hi[d] + near[d]);
 		if (in)
 			return (int)i + 1;
 	}

@@ -1,0 +1,69 @@
+/* level_faces.h - curves on several faces: clipped to their trims, joined over shared borders.
+ *
+ * A face is a surface and what its trims leave of it. Its border is made of the trimming curves, or of
+ * the sides of the surface's domain; seams of closed surfaces and sides that are one point are none.
+ * Where the borders of two faces are no farther apart than the gap, in whatever parametrisation and
+ * direction, and however far they run together, the faces share them.
+ */
+#ifndef BATTEN_LEVEL_FACES_H
+#define BATTEN_LEVEL_FACES_H
+
+#include "level.h"
+#include "trim.h"
+
+/* Both borrowed. trim NULL or without loops: all of the surface. */
+struct level_face {
+	const struct surface *surface;
+	const struct trim *trim;
+};
+
+struct level_faces; /* opaque: faces, their borders in space, an index of them; read-only */
+
+/* gap: in space, file units, above 0. Errors: ST_RESOURCE. */
+enum status level_faces_create(struct level_faces **out, const struct level_face *faces, int n,
+                               double gap);
+void level_faces_destroy(struct level_faces *f); /* NULL is fine */
+
+/* One branch in a chain. */
+struct level_part {
+	int face;
+	size_t branch; /* of the face's result */
+	bool reversed; /* run through from its end to its start */
+};
+
+/* Branches one behind the other. */
+struct level_chain {
+	size_t first, n; /* in parts */
+	bool closed;     /* has no ends */
+};
+
+struct level_chains {
+	struct level_part *parts; /* owned; every branch of all results once */
+	struct level_chain *list; /* owned */
+	size_t n, n_closed;
+	size_t joins;   /* places where two branches were joined */
+	size_t creases; /* ends on a border that another face shares with another normal (for lines of
+	                   curvature: another curvature) */
+	size_t nodes;   /* places where three or more branches of several faces end: crossings */
+	double step;    /* the largest distance between ends that were joined */
+};
+
+/* How the field goes on over a border. */
+struct level_joining {
+	const struct level_field *field;
+	double tolerance; /* of the curves, in space */
+	double crease;    /* normals that differ by less, in radians, make no crease */
+};
+
+/*
+ * Join the branches of one field on all faces, results[i] those on face i. A branch that runs along
+ * a border which another face has one along, too, stays with the first of them alone; results are
+ * changed where that is so. Planes and cylinders go over creases; all other curves end there on both
+ * sides, and so do those whose sign turns with the normal where two faces' normals are opposite.
+ * The chains depend on nothing but faces, field and results. Errors: ST_RESOURCE.
+ */
+enum status level_chains_join(const struct level_faces *f, const struct level_joining *how,
+                              struct level_result *results, struct level_chains *out);
+void level_chains_finish(struct level_chains *c); /* a zeroed one is fine */
+
+#endif
