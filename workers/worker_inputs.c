@@ -101,7 +101,8 @@ static enum status name_output(struct computation *c, const struct task *t, cons
 		return ST_RESOURCE;
 	if (t->output && path_has_suffix(base, extension))
 		base[strlen(base) - strlen(extension)] = 0;
-	if (!*path_file_name(base)) {
+	const char *name = path_file_name(base);
+	if (!*name || !strcmp(name, ".") || !strcmp(name, "..")) {
 		enum status st =
 		        report_error(r, ST_PARAMETER, "-o '%s' names no file; give a basic name",
 		                     t->output ? t->output : of->path);

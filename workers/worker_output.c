@@ -1,8 +1,10 @@
 /* worker_output.c - what a computation leaves: attributes, figures, files that appear whole. */
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base.h"
@@ -221,20 +223,58 @@ bool outputs_up_to_date(struct work *w, json_t **figures)
 /* ---- making them ---- */
 
 /* One name for one piece of work: a second start of it writes over what a killed one left. */
-static char *temp_path(const struct work *w, const char *path)
+static char *temp_path(const struct work *w, const struct worker_output *row)
 {
 	const struct task *t = w->private->task;
-	char *folder = path_folder(path),
+	const char *base = w->private->computation->base, *name = path_file_name(base);
+	char *brief = path_brief_name(name),
 	     *part = t->part ? path_basic_name(t->part) : strdup("hand");
-	char *temp = NULL;
-	if (folder && part) {
-		char *name = text_print(".%s.%s.tmp", path_file_name(path), part);
-		temp = name ? path_join(folder, name) : NULL;
-		free(name);
-	}
-	free(folder);
+	char *temp = brief && part ? text_print("%.*s.%s%s.%s.tmp", (int)(name - base), base, brief,
+	                                        row->extension, part)
+	                           : NULL;
+	free(brief);
 	free(part);
 	return temp;
+}
+
+/* ---- what stands where they go ---- */
+
+static enum status check_place(const char *path, const struct report *r)
+{
+	struct stat s;
+	size_t n = strlen(path_file_name(path));
+	if (n > NAME_MAX)
+		return report_error(
+		        r, ST_PARAMETER,
+		        "cannot write '%s': its name has %zu bytes, %d are the most; name another "
+		        "with -o",
+		        path, n, NAME_MAX);
+	if (lstat(path, &s) || S_ISLNK(s.st_mode))
+		return ST_OK; /* nothing, or a link, which the file takes the place of */
+	if (!S_ISREG(s.st_mode))
+		return report_error(r, ST_INPUT,
+		                    "cannot write '%s': %s stands there; name another with -o",
+		                    path, S_ISDIR(s.st_mode) ? "a folder" : "what is no file");
+	if (!(s.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)))
+		return report_error(
+		        r, ST_INPUT,
+		        "cannot write '%s': the file there is read-only; make it writable or name "
+		        "another with -o",
+		        path);
+	return ST_OK;
+}
+
+enum status outputs_check(const struct work *w)
+{
+	enum status st = ST_OK;
+	for (const struct worker_output *row = worker.outputs; st == ST_OK && row->extension;
+	     row++) {
+		char *path = output_wanted(w, row) ? output_path(w, row) : NULL;
+		if (path)
+			st = check_place(path, &w->report);
+		free(path);
+	}
+	return st;
 }
 
 static enum status sync_path(const char *path, int flags, const struct report *r)
@@ -279,7 +319,7 @@ enum status work_output(struct work *w, const char *extension, work_writer *writ
 	p->pending = list;
 	struct pending *new = &list[p->n_pending];
 	*new = (struct pending){ .row = row, .path = output_path(w, row) };
-	new->temp = new->path ? temp_path(w, new->path) : NULL;
+	new->temp = new->path ? temp_path(w, row) : NULL;
 	if (!new->temp) {
 		free(new->path);
 		return ST_RESOURCE;

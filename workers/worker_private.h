@@ -182,6 +182,9 @@ bool outputs_up_to_date(struct work *w, json_t **figures);
 char *output_path(const struct work *w, const struct worker_output *row);
 bool output_wanted(const struct work *w, const struct worker_output *row);
 
+/* Known before hours are spent: can the outputs have their names? Errors: ST_PARAMETER, ST_INPUT. */
+enum status outputs_check(const struct work *w);
+
 /* Rename what was made, or take it away. Errors: ST_INTERNAL (one is missing), ST_RESOURCE. */
 enum status outputs_commit(struct work *w);
 void outputs_abandon(struct work *w);

@@ -22,7 +22,7 @@ static bool place_look(struct place *p)
 	struct statvfs v;
 	struct stat s;
 	p->folder = path_folder(p->path);
-	if (!p->folder || stat(p->folder, &s) || statvfs(p->folder, &v))
+	if (!p->folder || stat(p->folder, &s) || statvfs(p->folder, &v) || !v.f_blocks)
 		return false;
 	p->disk = s.st_dev;
 	p->free = (double)v.f_bavail * (double)v.f_frsize;

@@ -1,4 +1,5 @@
 /* worker_run.c - the life of a computation: begin, missing units on all threads, finish. */
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -289,7 +290,13 @@ static char *part_path(const struct work *w)
 	const struct work_private *p = w->private;
 	if (p->task->part)
 		return strdup(p->task->part);
-	return text_print("%s%s.part", p->computation->base, worker.outputs[0].extension);
+	const char *base = p->computation->base, *name = path_file_name(base);
+	char end[64];
+	snprintf(end, sizeof end, "%s.part", worker.outputs[0].extension);
+	char *brief = strlen(name) + strlen(end) > NAME_MAX ? path_brief_name(name) : strdup(name);
+	char *part = brief ? text_print("%.*s%s%s", (int)(name - base), base, brief, end) : NULL;
+	free(brief);
+	return part;
 }
 
 static enum status do_computation(struct run *run, const struct task *t,
@@ -314,7 +321,9 @@ static enum status do_computation(struct run *run, const struct task *t,
 		if (t->n_shards == 0)
 			st = tell_up_to_date(&w, figures);
 	} else if (st == ST_OK) {
-		st = compute(&w, part);
+		st = outputs_check(&w);
+		if (st == ST_OK)
+			st = compute(&w, part);
 	}
 	json_decref(figures);
 	json_decref(private.figures);

@@ -8,6 +8,7 @@
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/pidfd.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -278,28 +279,63 @@ enum status client_connect(struct client **out, const struct project *p, bool st
 	return st;
 }
 
+/* A descriptor that becomes readable when the process at the other end is gone; -1: not to be had. */
+static int peer_open(int fd)
+{
+	struct ucred peer;
+	socklen_t size = sizeof peer;
+
+	if (getsockopt(fd, SOL_SOCKET, SO_PEERCRED, &peer, &size) || peer.pid < 1)
+		return -1;
+	return pidfd_open(peer.pid, 0);
+}
+
+/* Wait until the connection ends, then until the process has: only then the ledger is closed. */
+static bool wait_gone(int fd, int peer)
+{
+	struct pollfd there = { .fd = fd, .events = POLLIN };
+	struct pollfd process = { .fd = peer, .events = POLLIN };
+	char bytes[4096];
+	bool open = true;
+
+	while (open && poll(&there, 1, SHUTDOWN_MS) > 0)
+		open = read(fd, bytes, sizeof bytes) > 0;
+	return !open && (peer < 0 || poll(&process, 1, SHUTDOWN_MS) > 0);
+}
+
+/* Where it should listen, else where it says it does. */
+static enum status open_listening(int *fd, const struct project *p, const struct report *r)
+{
+	enum status st = open_socket(fd, p->socket, r);
+	char *other = st == ST_CANCELLED ? lock_socket(p) : NULL;
+
+	if (other && strcmp(other, p->socket))
+		st = open_socket(fd, other, r);
+	free(other);
+	return st;
+}
+
 /* SHUTDOWN is the one request that is understood before HELLO, and its number never changes. */
 enum status client_shutdown(const struct project *p, bool *ran, const struct report *r)
 {
 	int fd = -1;
-	char *other = NULL, bytes[4096];
-	enum status st = open_socket(&fd, p->socket, r);
+	enum status st = open_listening(&fd, p, r);
 
-	if (st == ST_CANCELLED && (other = lock_socket(p)))
-		st = open_socket(&fd, other, r);
-	free(other);
+	/* one that is just beginning will listen, one that is just ending will be gone */
+	if (st == ST_CANCELLED && lock_is_deaf(p, SHUTDOWN_MS))
+		st = open_listening(&fd, p, r);
 	*ran = st == ST_OK;
 	if (st != ST_OK)
 		return st == ST_CANCELLED ? ST_OK : st;
+	int peer = peer_open(fd);
 	json_t *body = json_pack("{s:i}", "id", 1);
-	st = message_send(fd, MESSAGE_SHUTDOWN, body);
+	message_send(fd, MESSAGE_SHUTDOWN, body); /* not taken by one that is ending already */
 	json_decref(body);
-	struct pollfd there = { .fd = fd, .events = POLLIN };
-	bool open = st == ST_OK;
-	while (open && poll(&there, 1, SHUTDOWN_MS) > 0)
-		open = read(fd, bytes, sizeof bytes) > 0;
+	bool gone = wait_gone(fd, peer);
 	close(fd);
-	if (open)
+	if (peer >= 0)
+		close(peer);
+	if (!gone)
 		return report_error(
 		        r, ST_RESOURCE,
 		        "the service did not end within %d s; see '%s/logs/service.log'",

@@ -19,8 +19,8 @@ enum status client_connect(struct client **out, const struct project *p, bool st
                            const struct report *r);
 void client_close(struct client *c); /* NULL is fine */
 
-/* End the project's service, of whatever protocol it is, and wait until it has closed the
- * connection. *ran: there was one. Errors: ST_RESOURCE (it does not end), ST_INPUT (not ours). */
+/* End the project's service, of whatever protocol it is, and wait until its process is
+ * gone. *ran: there was one. Errors: ST_RESOURCE (it does not end), ST_INPUT (not ours). */
 enum status client_shutdown(const struct project *p, bool *ran, const struct report *r);
 
 /* A JOB packet's record; s is borrowed for the call. Return false to stop listening. */

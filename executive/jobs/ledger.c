@@ -14,7 +14,8 @@ struct book {
 	sqlite3 *db;
 	sqlite3_stmt *put, *drop, *begin, *commit, *rollback;
 	char *path;
-	bool full; /* synchronous=FULL is set */
+	bool full;        /* synchronous=FULL is set */
+	sqlite3_vfs near; /* takes names as they are; zName is set while it is registered */
 };
 
 /* What to do, by SQLite's code. */
@@ -244,6 +245,29 @@ static bool book_prepare(struct book *b)
 	return true;
 }
 
+/* SQLite makes names absolute, and then takes no more than 512 bytes of them: those that are relative
+ * stay so here. */
+static int near_full_name(sqlite3_vfs *vfs, const char *name, int size, char *out)
+{
+	(void)vfs;
+	sqlite3_snprintf(size, out, "%s", name);
+	return SQLITE_OK;
+}
+
+static int book_open(struct book *b)
+{
+	const sqlite3_vfs *usual = sqlite3_vfs_find(NULL);
+	if (b->path[0] == '/' || !usual)
+		return sqlite3_open(b->path, &b->db);
+	b->near = *usual;
+	b->near.pNext = NULL;
+	b->near.zName = "batten-near";
+	b->near.xFullPathname = near_full_name;
+	sqlite3_vfs_register(&b->near, 0);
+	return sqlite3_open_v2(b->path, &b->db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
+	                       b->near.zName);
+}
+
 static void book_close(struct book *b)
 {
 	sqlite3_finalize(b->put);
@@ -252,6 +276,8 @@ static void book_close(struct book *b)
 	sqlite3_finalize(b->commit);
 	sqlite3_finalize(b->rollback);
 	sqlite3_close(b->db);
+	if (b->near.zName)
+		sqlite3_vfs_unregister(&b->near);
 	free(b->path);
 	free(b);
 }
@@ -266,7 +292,7 @@ enum status ledger_open(struct ledger *out, const char *path, const struct repor
 		free(b);
 		return report_error(r, ST_RESOURCE, "cannot open the ledger: out of memory");
 	}
-	if (sqlite3_open(path, &b->db) != SQLITE_OK ||
+	if (book_open(b) != SQLITE_OK ||
 	    sqlite3_exec(b->db, settings, NULL, NULL, NULL) != SQLITE_OK)
 		st = book_error(b, "open", r);
 	if (st == ST_OK)

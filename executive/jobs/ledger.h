@@ -4,6 +4,8 @@
 
 #include "stats.h"
 
+enum { LEDGER_PATH_MAX = 480 }; /* bytes of an absolute path */
+
 struct ledger_change {
 	int64_t id;
 	const struct Stats *stats; /* borrowed; NULL: take the record out */
@@ -27,7 +29,8 @@ struct ledger {
 	                    bool *held, const struct report *r);
 };
 
-/* SQLite in WAL mode. Errors: ST_RESOURCE, ST_INPUT (written by a later batten). */
+/* SQLite in WAL mode. A path that does not begin with / counts from the working folder, which must stay;
+ * others are of LEDGER_PATH_MAX bytes at most. Errors: ST_RESOURCE, ST_INPUT (written by a later batten). */
 enum status ledger_open(struct ledger *out, const char *path, const struct report *r);
 void ledger_close(struct ledger *l); /* zeroed is fine */
 

@@ -86,6 +86,7 @@ static enum status worker_start(struct worker *w, struct Stats *s, const struct 
 		.worker = worker_path(l, s->worker, &st, r),
 		.log = w->log,
 		.niceness = l->niceness,
+		.umask = s->umask,
 		.memory_bytes = s->memory_mib
 		                        ? (uint64_t)(s->memory_mib + MEMORY_SPARE_MIB +
 		                                     (int64_t)MEMORY_THREAD_MIB * s->threads) *

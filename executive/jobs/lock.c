@@ -9,6 +9,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "path.h"
@@ -104,6 +105,27 @@ enum status lock_take(const struct project *p, bool wait, int *fd, const struct 
 		close(*fd);
 	free(path);
 	return st;
+}
+
+/* Locks of files cannot be waited for with a limit but by looking again. */
+bool lock_is_deaf(const struct project *p, int ms)
+{
+	enum { LOOK_MS = 5 };
+	const struct timespec pause = { .tv_nsec = LOOK_MS * 1000000 };
+	char *path = path_join(p->hidden, "lock");
+	int fd = path ? open(path, O_RDONLY | O_CLOEXEC) : -1;
+	bool met = false, deaf = fd >= 0;
+	for (int waited = 0; deaf && waited <= ms; waited += LOOK_MS) {
+		struct flock l = { .l_type = F_WRLCK, .l_start = LOCK_DEAF, .l_len = 1 };
+		deaf = !fcntl(fd, F_OFD_GETLK, &l) && l.l_type != F_UNLCK;
+		met |= deaf;
+		if (deaf)
+			nanosleep(&pause, NULL);
+	}
+	if (fd >= 0)
+		close(fd);
+	free(path);
+	return met;
 }
 
 void lock_touch(int fd)

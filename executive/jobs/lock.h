@@ -17,6 +17,10 @@
 enum status lock_take(const struct project *p, bool wait, int *fd, const struct report *r);
 void lock_listening(int fd, bool listening);
 
+/* Is there a service that does not listen, since it begins or ends? Then wait until it listens or is
+ * gone, for so many milliseconds at most. */
+bool lock_is_deaf(const struct project *p, int ms);
+
 /* A service that takes long to begin says now and then that it does begin: its lock's time changes.
  * Nanoseconds of that time, 0 where there is no lock. */
 void lock_touch(int fd);

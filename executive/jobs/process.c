@@ -17,15 +17,16 @@ extern char **environ;
 
 static int starter_run(const struct spawn *s, int in, int out, pid_t *pid)
 {
-	char parent[24], niceness[12], memory[24];
+	char parent[24], niceness[12], memory[24], mask[12];
 	char *alone[] = { (char *)s->worker, NULL };
 	char *const *words = s->words ? s->words : alone;
-	char *argv[SPAWN_WORDS + 5] = { (char *)s->starter, parent, niceness, memory };
+	char *argv[SPAWN_WORDS + 6] = { (char *)s->starter, parent, niceness, memory, mask };
 	for (size_t i = 0; words[i] && i < SPAWN_WORDS; i++)
-		argv[i + 4] = words[i];
+		argv[i + 5] = words[i];
 	snprintf(parent, sizeof parent, "%ld", (long)getpid());
 	snprintf(niceness, sizeof niceness, "%d", s->niceness);
 	snprintf(memory, sizeof memory, "%llu", (unsigned long long)s->memory_bytes);
+	snprintf(mask, sizeof mask, s->umask < 0 ? "-" : "%o", (unsigned)s->umask);
 
 	posix_spawn_file_actions_t actions;
 	posix_spawnattr_t attributes;

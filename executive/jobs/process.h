@@ -11,9 +11,9 @@ enum { SPAWN_WORDS = 64 };
 
 struct spawn {
 	const char *starter, *worker;
-	char *const *words; /* of the command, NULL at the end; NULL: the worker alone */
-	int log;            /* becomes standard error */
-	int niceness;
+	char *const *words;    /* of the command, NULL at the end; NULL: the worker alone */
+	int log;               /* becomes standard error */
+	int niceness, umask;   /* umask -1: ours */
 	uint64_t memory_bytes; /* 0: no limit */
 };
 

@@ -13,6 +13,15 @@
 #include "path.h"
 #include "text.h"
 
+/* There may be a folder of ours in it already; else we must be able to make one. */
+static bool takes_sockets(const char *runtime)
+{
+	char *own = path_join(runtime, "batten");
+	bool takes = own && (path_is_folder(own) || !access(runtime, W_OK | X_OK));
+	free(own);
+	return takes;
+}
+
 /* The socket's name: of the folder itself, whatever link it was reached by. */
 static char *socket_path(const char *folder)
 {
@@ -23,7 +32,7 @@ static char *socket_path(const char *folder)
 	free(real);
 
 	const char *runtime = getenv("XDG_RUNTIME_DIR");
-	if (runtime && runtime[0] == '/' && path_is_folder(runtime)) {
+	if (runtime && runtime[0] == '/' && takes_sockets(runtime)) {
 		char *path = text_print("%s/batten/%s", runtime, hash);
 		if (!path || strlen(path) < sizeof(((struct sockaddr_un *)0)->sun_path))
 			return path;

@@ -49,7 +49,7 @@ static int64_t room_at(const char *path)
 	char *folder = path_folder(path);
 	int n = folder ? statvfs(folder, &v) : -1;
 	free(folder);
-	if (n)
+	if (n || !v.f_blocks) /* one of no blocks is no disk: /proc */
 		return -1;
 	return (int64_t)((double)v.f_bavail * (double)v.f_frsize / (1 << 20));
 }
@@ -333,7 +333,10 @@ static enum status server_open(struct server *s, const struct settings *settings
 		.tidy = on_tidy,
 		.room_data = s,
 	};
-	char *path = path_join(s->project->hidden, "jobs.db");
+	/* the working folder is the project's */
+	const char *hidden =
+	        strlen(s->project->hidden) < LEDGER_PATH_MAX ? s->project->hidden : ".batten";
+	char *path = path_join(hidden, "jobs.db");
 	enum status st = path ? ledger_open(&s->ledger, path, r) : ST_RESOURCE;
 	free(path);
 	if (st == ST_OK)

@@ -1,9 +1,9 @@
 /* starter.c - batten-launch: becomes a worker, after setting what a worker must not set for itself.
  *
- *	batten-launch PARENT NICENESS BYTES WORKER [WORD...]
+ *	batten-launch PARENT NICENESS BYTES UMASK WORKER [WORD...]
  *
- * PARENT is the service's process, BYTES the limit on the worker's private memory (0: none). The
- * process keeps its number and its group. It stands alone so that it starts at once.
+ * PARENT is the service's process, BYTES the limit on the worker's private memory (0: none), UMASK
+ * octal (-: the service's own): the files are those of who asked for them. The process keeps its number and its group. It stands alone so that it starts at once.
  */
 #include <errno.h>
 #include <signal.h>
@@ -12,6 +12,7 @@
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* A build that checks addresses reserves more memory than there is: no limit could hold it. */
@@ -48,8 +49,9 @@ static int limit_set(int which, rlim_t value)
 
 int main(int argc, char **argv)
 {
-	if (argc < 5) {
-		fprintf(stderr, "usage: batten-launch PARENT NICENESS BYTES WORKER [WORD...]\n");
+	if (argc < 6) {
+		fprintf(stderr,
+		        "usage: batten-launch PARENT NICENESS BYTES UMASK WORKER [WORD...]\n");
 		return STATUS_USAGE;
 	}
 	pid_t parent = (pid_t)atol(argv[1]);
@@ -69,8 +71,10 @@ int main(int argc, char **argv)
 	/* batten's own threads are all there are */
 	if (setenv("OPENBLAS_NUM_THREADS", "1", 1) || setenv("OMP_NUM_THREADS", "1", 1))
 		return starter_fails("set the environment");
-	execv(argv[4], argv + 4);
+	if (*argv[4] != '-')
+		umask((mode_t)strtoul(argv[4], NULL, 8) & 0777);
+	execv(argv[5], argv + 5);
 	starter_fails("start the worker");
-	fprintf(stderr, "batten-launch: the worker is '%s'\n", argv[4]);
+	fprintf(stderr, "batten-launch: the worker is '%s'\n", argv[5]);
 	return STATUS_NOT_STARTED;
 }

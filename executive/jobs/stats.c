@@ -26,6 +26,7 @@ void stats_init(struct Stats *s)
 	memset(s, 0, sizeof *s);
 	s->eta_s = s->wall_s = s->suspended_s = s->cpu_s = NAN;
 	s->peak_kib = s->bytes = -1;
+	s->umask = -1;
 }
 
 void stats_drop_outputs(struct Stats *s)
@@ -312,6 +313,7 @@ static void write_all(const struct writer *w, const struct Stats *s)
 	write_ids(w, "after", s->after, s->n_after);
 	write_ids(w, "after_any", s->after_any, s->n_after_any);
 	write_number(w, "wall_limit_s", s->wall_limit_s > 0 ? s->wall_limit_s : NAN);
+	write_integer(w, "umask", s->umask, s->umask >= 0);
 	write_value(w, "parameters", s->parameters);
 	write_text(w, "output", s->output);
 	write_integer(w, "threads", s->threads, s->threads > 0);
@@ -448,6 +450,7 @@ enum status stats_from_json(struct Stats *s, const json_t *o)
 	s->bytes = json_int(o, "bytes", -1);
 	s->threads = (int)json_int(o, "threads", 0);
 	s->memory_mib = json_int(o, "memory_mib", 0);
+	s->umask = (int)json_int(o, "umask", -1);
 	s->force = json_flag(o, "force", false);
 	const json_t *parameters = json_object_get(o, "parameters");
 	s->parameters =

@@ -77,6 +77,7 @@ struct Stats {
 	char *on;                         /* name of its launcher; NULL: local */
 	int shards;                       /* processes that share its units; 0, 1: one does all */
 	char *partition, *account, *time; /* what Slurm is told; NULL: as the settings say */
+	int umask;                        /* of who submitted it, -1: not known */
 	char *log;                        /* path */
 };
 
@@ -89,7 +90,7 @@ enum status stats_copy(struct Stats *out, const struct Stats *s);
 /* The object that jobs --json shows (DESIGN: id worker state color fraction eta_s file_name
  * path_name pid host group reason wall_s suspended_s cpu_s peak_kib inputs outputs log), plus
  * bytes, on, shards, partition, account, time, priority, done, total, phase, after, after_any,
- * wall_limit_s, parameters, output, threads, memory_mib, force, submitted,
+ * wall_limit_s, umask, parameters, output, threads, memory_mib, force, submitted,
  * started, ended. New reference; NULL for want of memory. */
 json_t *stats_to_json(const struct Stats *s);
 

@@ -9,7 +9,7 @@
 
 #include "path.h"
 
-/* ".BASIC.EXTENSION.ID.tmp", as the workers' shared main names them, and what a whole file puts behind that
+/* ".BASIC.EXTENSION.ID.tmp" with the brief form of BASIC, as the workers' shared main names them, and what a whole file puts behind that
  * on its way: a point and six letters. */
 static bool is_left(const char *name, const char *basic, int64_t id)
 {
@@ -30,11 +30,13 @@ static bool is_left(const char *name, const char *basic, int64_t id)
 void tidy_outputs(const struct Stats *s)
 {
 	char *folder = s->output ? path_folder(s->output) : NULL;
-	DIR *d = folder ? opendir(folder) : NULL;
+	char *basic = folder ? path_brief_name(path_file_name(s->output)) : NULL;
+	DIR *d = basic ? opendir(folder) : NULL;
 	for (struct dirent *e; d && (e = readdir(d));)
-		if (is_left(e->d_name, path_file_name(s->output), s->id))
+		if (is_left(e->d_name, basic, s->id))
 			unlinkat(dirfd(d), e->d_name, 0);
 	if (d)
 		closedir(d);
+	free(basic);
 	free(folder);
 }

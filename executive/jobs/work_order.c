@@ -1,9 +1,11 @@
 /* work_order.c - a worker, its parameters and inputs, as jobs for the service. */
 #include "work_order.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "file.h"
 #include "json.h"
 #include "path.h"
 #include "settings.h"
@@ -95,13 +97,30 @@ static char *output_name(const struct work_order *o, const struct work_input *in
 	return full;
 }
 
+/* Before the job waits for hours: is there a name, and is it one that a file can have? */
+static enum status check_output(const struct work_order *o, const char *output,
+                                const struct report *r)
+{
+	const char *said = o->output ? path_file_name(o->output) : "results";
+
+	if (!*said || !strcmp(said, ".") || !strcmp(said, ".."))
+		return report_error(r, ST_PARAMETER, "-o '%s' names no file; give a basic name",
+		                    o->output);
+	const size_t n = strlen(path_file_name(output)) + strlen(own_extension(o));
+	if (n > NAME_MAX)
+		return report_error(r, ST_PARAMETER,
+		                    "the result of '%s' would have a name of %zu bytes, %d are "
+		                    "the most; give a shorter one with -o",
+		                    output, n, NAME_MAX);
+	return ST_OK;
+}
+
 /* The job over inputs first .. first + n - 1. New reference. */
 static json_t *make_job(const struct work_order *o, const char *group, size_t first, size_t n,
-                        bool numbered)
+                        const char *output)
 {
 	const struct work_input *in = &o->inputs[first];
 	json_t *job = json_object(), *inputs = json_array();
-	char *output = output_name(o, in, numbered);
 
 	for (size_t k = first; k < first + n; k++)
 		json_array_append_new(inputs,
@@ -116,6 +135,7 @@ static json_t *make_job(const struct work_order *o, const char *group, size_t fi
 	json_set_int(job, "memory_mib", o->memory_mib);
 	json_set_text(job, "on", o->place);
 	json_set_int(job, "shards", o->shards ? o->shards : 1);
+	json_set_int(job, "umask", file_mask());
 	json_set_text(job, "partition", o->partition);
 	json_set_text(job, "account", o->account);
 	json_set_text(job, "time", o->time);
@@ -129,7 +149,6 @@ static json_t *make_job(const struct work_order *o, const char *group, size_t fi
 	if (o->wall_s > 0)
 		json_object_set_new(job, "wall_limit_s", json_real(o->wall_s));
 	json_object_set_new(job, "force", json_boolean(o->force));
-	free(output);
 	return job;
 }
 
@@ -198,7 +217,12 @@ enum status work_order_send(const struct work_order *o, struct client *c, client
 	}
 	for (size_t k = 0; k < o->n_inputs && st == ST_OK; k += each) {
 		const bool numbered = each < o->n_inputs && (o->output || !o->inputs[k].alone);
-		st = batch_add(&b, make_job(o, o->group ? o->group : own, k, each, numbered), r);
+		char *output = output_name(o, &o->inputs[k], numbered);
+		st = output ? check_output(o, output, r) : ST_RESOURCE;
+		if (st == ST_OK)
+			st = batch_add(&b, make_job(o, o->group ? o->group : own, k, each, output),
+			               r);
+		free(output);
 	}
 	if (st == ST_OK)
 		st = batch_send(&b, r);

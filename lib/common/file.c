@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/random.h>
@@ -74,9 +75,38 @@ static int open_nameless(const char *path)
 	return fd;
 }
 
+/* Beside the file, with that behind its name; a name that leaves no room for it is made brief. */
+static char *temp_name(const char *path, const char *end)
+{
+	const char *name = path_file_name(path);
+	char *brief = strlen(name) + strlen(end) > NAME_MAX ? path_brief_name(name) : strdup(name);
+	char *temp = brief ? text_print("%.*s%s%s", (int)(name - path), path, brief, end) : NULL;
+
+	free(brief);
+	return temp;
+}
+
+/* umask() tells it only by setting it, for all threads. */
+unsigned file_mask(void)
+{
+	char text[4096];
+	int fd = open("/proc/self/status", O_RDONLY | O_CLOEXEC);
+	ssize_t n = fd < 0 ? -1 : read(fd, text, sizeof text - 1);
+
+	if (fd >= 0)
+		close(fd);
+	text[n > 0 ? n : 0] = '\0';
+	const char *line = strstr(text, "\nUmask:");
+	if (line)
+		return (unsigned)strtoul(line + strlen("\nUmask:"), NULL, 8);
+	mode_t mask = umask(077);
+	umask(mask);
+	return mask;
+}
+
 static int open_named(struct whole_file *f)
 {
-	f->temp = text_print("%s.XXXXXX", f->path);
+	f->temp = temp_name(f->path, ".XXXXXX");
 	if (!f->temp) {
 		errno = ENOMEM;
 		return -1;
@@ -89,9 +119,7 @@ static int open_named(struct whole_file *f)
 		errno = error;
 		return -1;
 	}
-	mode_t mask = umask(0);
-	umask(mask);
-	fchmod(fd, 0666 & ~mask);
+	fchmod(fd, 0666 & ~file_mask());
 	return fd;
 }
 
@@ -99,7 +127,7 @@ static int open_named(struct whole_file *f)
 static int give_name(struct whole_file *f)
 {
 	enum { TRIES = 100 };
-	char from[32];
+	char from[32], end[16];
 	unsigned long random;
 
 	snprintf(from, sizeof from, "/proc/self/fd/%d", fileno(f->stream));
@@ -107,7 +135,8 @@ static int give_name(struct whole_file *f)
 		if (getrandom(&random, sizeof random, 0) != sizeof random)
 			return errno;
 		free(f->temp);
-		f->temp = text_print("%s.%06lx", f->path, random & 0xffffff);
+		snprintf(end, sizeof end, ".%06lx", random & 0xffffff);
+		f->temp = temp_name(f->path, end);
 		if (!f->temp)
 			return ENOMEM;
 		if (!linkat(AT_FDCWD, from, AT_FDCWD, f->temp, AT_SYMLINK_FOLLOW))

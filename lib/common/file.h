@@ -38,6 +38,9 @@ void whole_file_abandon(struct whole_file *f);
 /* Create, write n bytes, commit. */
 enum status file_write(const char *path, const void *bytes, size_t n, const struct report *r);
 
+/* The mode bits that new files of this process are without. Thread: any. */
+unsigned file_mask(void);
+
 /* Make a folder and those above it that are missing; mode as for mkdir. */
 enum status folder_make(const char *path, unsigned mode, const struct report *r);
 

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "hash.h"
 #include "text.h"
 
 char *path_join(const char *a, const char *b)
@@ -46,6 +47,21 @@ char *path_basic_name(const char *path)
 	const char *name = path_file_name(path);
 
 	return strndup(name, (size_t)(path_extension(path) - name));
+}
+
+char *path_brief_name(const char *name)
+{
+	enum { DIGITS = 8 };
+	char hash[HASH_SIZE];
+	size_t n = strlen(name);
+
+	if (n <= PATH_BRIEF)
+		return strdup(name);
+	hash_bytes(name, n, hash);
+	n = PATH_BRIEF - DIGITS - 1;
+	while (n && ((unsigned char)name[n] & 0xc0) == 0x80)
+		n--; /* no character is cut in two */
+	return text_print("%.*s~%.*s", (int)n, name, DIGITS, hash);
 }
 
 char *path_absolute(const char *path, const char *folder)

@@ -20,6 +20,11 @@ char *path_folder(const char *path);
 /* Without folder and last extension: "a/hull.igs" -> "hull". */
 char *path_basic_name(const char *path);
 
+/* For a temporary name beside it: the name, or where it is longer than PATH_BRIEF bytes its first part
+ * and a hash of it; names of up to NAME_MAX bytes leave room for more that way. */
+enum { PATH_BRIEF = 96 };
+char *path_brief_name(const char *name);
+
 /* Absolute, . and .. taken out as text; relative to folder (NULL: the current one). */
 char *path_absolute(const char *path, const char *folder);
 

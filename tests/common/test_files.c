@@ -1,5 +1,6 @@
 /* test_files.c - paths, and files that appear whole or not at all. */
 #include <fcntl.h>
+#include <limits.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -81,6 +82,52 @@ static void absolute_paths(void **state)
 	}
 }
 
+static void brief_names(void **state)
+{
+	char longest[NAME_MAX + 1], accents[NAME_MAX];
+
+	(void)state;
+	memset(longest, 'x', NAME_MAX);
+	longest[NAME_MAX] = 0;
+	for (size_t n = 0; n <= NAME_MAX; n++) {
+		char *brief = path_brief_name(longest + n), *same = path_brief_name(longest + n);
+		assert_string_equal(brief, same);
+		if (NAME_MAX - n <= PATH_BRIEF)
+			assert_string_equal(brief, longest + n);
+		else
+			assert_int_equal(strlen(brief), PATH_BRIEF);
+		free(brief);
+		free(same);
+	}
+	/* names of one beginning stay apart, and no character is cut */
+	char *one = path_brief_name(longest);
+	longest[NAME_MAX - 1] = 'y';
+	char *other = path_brief_name(longest);
+	assert_string_not_equal(one, other);
+	for (size_t i = 0; i + 2 < sizeof accents; i += 2)
+		memcpy(accents + i, "é", 3);
+	char *cut = path_brief_name(accents);
+	assert_int_equal(strchr(cut, '~') - cut, PATH_BRIEF - 10);
+	free(one);
+	free(other);
+	free(cut);
+}
+
+static void names_of_every_length_can_be_written(void **state)
+{
+	char name[NAME_MAX + 2];
+
+	(void)state;
+	for (size_t n = NAME_MAX - 10; n <= NAME_MAX + 1; n++) {
+		memset(name, 'n', n);
+		name[n] = 0;
+		char *path = path_join(folder, name);
+		assert_int_equal(file_write(path, "x", 1, NULL), n > NAME_MAX ? ST_INPUT : ST_OK);
+		assert_int_equal(path_exists(path), n <= NAME_MAX);
+		free(path);
+	}
+}
+
 static void a_file_appears_at_its_commit(void **state)
 {
 	char *path = path_join(folder, "whole"), *got;
@@ -148,12 +195,16 @@ static void the_mode_is_as_for_any_file(void **state)
 	struct stat st;
 
 	(void)state;
-	mode_t old = umask(027);
-	assert_int_equal(file_write(path, "x", 1, NULL), ST_OK);
-	umask(old);
-	assert_int_equal(stat(path, &st), 0);
-	assert_int_equal(st.st_mode & 0777, 0640);
-	assert_int_equal(st.st_nlink, 1);
+	static const mode_t masks[] = { 027, 0, 077, 022, 0777 };
+	for (size_t i = 0; i < sizeof masks / sizeof *masks; i++) {
+		mode_t old = umask(masks[i]);
+		assert_int_equal(file_mask(), masks[i]);
+		assert_int_equal(file_write(path, "x", 1, NULL), ST_OK);
+		umask(old);
+		assert_int_equal(stat(path, &st), 0);
+		assert_int_equal(st.st_mode & 0777, 0666 & ~masks[i]);
+		assert_int_equal(st.st_nlink, 1);
+	}
 	free(path);
 }
 
@@ -214,6 +265,8 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(paths),
 		cmocka_unit_test(absolute_paths),
+		cmocka_unit_test(brief_names),
+		cmocka_unit_test(names_of_every_length_can_be_written),
 		cmocka_unit_test(a_file_appears_at_its_commit),
 		cmocka_unit_test(an_abandoned_file_leaves_nothing),
 		cmocka_unit_test(a_killed_writer_leaves_nothing),

@@ -12,7 +12,9 @@
 #include "file.h"
 #include "path.h"
 #include "settings.h"
+#include "stats.h"
 #include "text.h"
+#include "tidy.h"
 
 struct here {
 	char folder[64];
@@ -234,6 +236,47 @@ static void comments_begin_behind_a_blank(void **state)
 
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
+static bool is_there(const struct here *h, const char *name)
+{
+	char *path = path_join(h->folder, name);
+	bool there = path_exists(path);
+	free(path);
+	return there;
+}
+
+/* Those of the job go, of whatever length its name; another job's, and what only looks like them, stay. */
+static void what_a_killed_worker_left_is_taken_away(void **state)
+{
+	static const struct {
+		const char *end;
+		bool goes;
+	} rows[] = {
+		{ ".map.exr.7.tmp", true },   { ".png.7.tmp.a1b2c3", true },
+		{ ".map.exr.17.tmp", false }, { ".map.exr.8.tmp", false },
+		{ ".map.exr", false },        { ".map.exr.7.tmp.more", false },
+	};
+	struct here *h = *state;
+	char name[248] = "hull";
+	for (int length = 0; length < 2; length++) {
+		char *brief = path_brief_name(name), *output = path_join(h->folder, name);
+		struct Stats s = { .id = 7, .output = output };
+		for (int made = 0; made < 2; made++) {
+			for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+				char *left = text_print(".%s%s", brief, rows[i].end);
+				if (!made)
+					write_file(h, left, "half");
+				else
+					assert_int_equal(is_there(h, left), !rows[i].goes);
+				free(left);
+			}
+			tidy_outputs(&s);
+		}
+		free(output);
+		free(brief);
+		memset(name, 'n', sizeof name - 1);
+	}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -244,6 +287,7 @@ int main(void)
 		T(comments_begin_behind_a_blank),
 		T(project_is_the_nearest_above),
 		T(a_socket_folder_that_others_may_enter_is_refused),
+		T(what_a_killed_worker_left_is_taken_away),
 	};
 	return cmocka_run_group_tests_name("settings", tests, NULL, NULL);
 }

@@ -20,7 +20,7 @@ static const char full[] =
         "\"outputs\":[{\"path\":\"/o.exr\",\"kind\":\"image\",\"figures\":{\"K_max\":0.1}}],"
         "\"bytes\":1234,\"log\":\"/l\",\"on\":\"slurm\",\"shards\":4,\"partition\":\"p\",\"account\":\"a\","
         "\"time\":\"1:00\",\"priority\":-3,\"done\":1,\"total\":4,\"phase\":\"units\",\"after\":[3,5],"
-        "\"after_any\":[4],\"wall_limit_s\":60.5,"
+        "\"after_any\":[4],\"wall_limit_s\":60.5,\"umask\":23,"
         "\"parameters\":{\"grid\":\"4x4\"},\"output\":\"/o\",\"threads\":2,\"memory_mib\":64,"
         "\"force\":true,\"submitted\":1000.25,\"started\":1001.5,\"ended\":null}";
 
