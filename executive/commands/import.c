@@ -1,6 +1,9 @@
 /* import.c - every entity of a geometry file as .base. */
+#include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base.h"
 #include "file.h"
@@ -14,6 +17,9 @@
 static const struct option_row import_options[] = {
 	{ "--into", NULL, "DIR", "folder to write into (default: the current one)" },
 	{ "--inputs", NULL, NULL, "write the surfaces under their hash, as jobs read them" },
+	{ "--model-fd", NULL, "N", "for programs: write all of it as one .base to descriptor N" },
+	{ "--progress-fd", NULL, "N",
+	  "for programs: how far it is, 0 to 1 a line, to descriptor N" },
 	{ 0 },
 };
 
@@ -108,17 +114,65 @@ static enum status import_all(struct import *x, const struct entity *chosen)
 	return st;
 }
 
+/* What could not be read, for who takes the model over. */
+static json_t *complaints(const struct model *m)
+{
+	json_t *skipped = json_array(), *warnings = json_array();
+
+	for (int k = 0; k < m->n_skipped; k++)
+		json_array_append_new(
+		        skipped, json_pack("{s:i, s:i, s:i, s:s}", "type", m->skipped[k].type,
+		                           "count", m->skipped[k].count, "first_de",
+		                           m->skipped[k].first_de, "reason", m->skipped[k].reason));
+	for (int k = 0; k < m->n_warnings; k++)
+		json_array_append_new(warnings, json_string(m->warnings[k]));
+	return json_pack("{s:s?, s:i, s:o, s:o}", "file", m->file, "entities", m->n, "skipped",
+	                 skipped, "warnings", warnings);
+}
+
+/* The whole model to an open descriptor. */
+static int hand_over(const struct invocation *i, const struct model *m, int fd)
+{
+	struct text t = { 0 };
+	size_t done = 0;
+	enum status st = ST_OK;
+
+	base_format(m, &t);
+	if (t.failed)
+		st = report_error(&i->report, ST_RESOURCE, "memory ran out");
+	while (st == ST_OK && done < t.n) {
+		const ssize_t n = write(fd, t.s + done, t.n - done);
+		if (n > 0)
+			done += (size_t)n;
+		else if (errno != EINTR)
+			st = report_error(&i->report, status_from_errno(errno),
+			                  "cannot hand over what was read: %s", strerror(errno));
+	}
+	text_finish(&t);
+	return st == ST_OK ? print_json(complaints(m)) : status_exit(st);
+}
+
 static int import_run(const struct invocation *i)
 {
 	struct model m;
 	struct entity *chosen;
 	const char *into = invocation_value(i, "--into");
+	long model_fd = -1, progress_fd = -1;
 
 	if (i->n_words != 1)
 		return status_exit(report_error(&i->report, ST_PARAMETER, "name one file"));
-	enum status st = reading_open(&m, i->words[0], &chosen, &i->report);
+	enum status st = invocation_integer(i, "--model-fd", 3, INT_MAX, -1, &model_fd);
+	if (st == ST_OK)
+		st = invocation_integer(i, "--progress-fd", 3, INT_MAX, -1, &progress_fd);
+	if (st == ST_OK)
+		st = reading_open_telling(&m, i->words[0], (int)progress_fd, &chosen, &i->report);
 	if (st != ST_OK)
 		return status_exit(st);
+	if (model_fd >= 0) {
+		const int rc = hand_over(i, &m, (int)model_fd);
+		model_finish(&m);
+		return rc;
+	}
 	char *basic = m.file ? path_basic_name(m.file) : NULL;
 	struct import x = { .i = i,
 		            .m = &m,

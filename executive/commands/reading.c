@@ -36,6 +36,7 @@ struct meter {
 	double began, drawn;
 	const char *name;
 	bool shown;
+	int fd; /* for programs */
 };
 
 static double now(void)
@@ -58,8 +59,26 @@ static void draw(void *data, double fraction)
 	m->shown = true;
 }
 
+/* Who listens may be gone: then SIGPIPE ends this process, whose work nobody wants. */
+static void tell(void *data, double fraction)
+{
+	struct meter *m = data;
+	double t = now();
+
+	if (t - m->drawn < 0.1)
+		return;
+	dprintf(m->fd, "%.4f\n", fraction);
+	m->drawn = t;
+}
+
 enum status reading_open(struct model *m, const char *argument, struct entity **chosen,
                          const struct report *r)
+{
+	return reading_open_telling(m, argument, -1, chosen, r);
+}
+
+enum status reading_open_telling(struct model *m, const char *argument, int fd,
+                                 struct entity **chosen, const struct report *r)
 {
 	char *path = NULL, *selector = NULL;
 	enum status st = model_split_name(argument, &path, &selector);
@@ -67,8 +86,10 @@ enum status reading_open(struct model *m, const char *argument, struct entity **
 	*chosen = NULL;
 	if (st != ST_OK)
 		return report_error(r, st, "memory ran out");
-	struct meter meter = { .began = now(), .name = path_file_name(path) };
-	struct progress p = { .step = isatty(STDERR_FILENO) ? draw : NULL,
+	struct meter meter = { .began = now(), .name = path_file_name(path), .fd = fd };
+	struct progress p = { .step = fd >= 0                 ? tell
+		                      : isatty(STDERR_FILENO) ? draw
+		                                              : NULL,
 		              .data = &meter,
 		              .stop = &interrupted };
 	struct interrupt interrupt;

@@ -14,6 +14,10 @@
 enum status reading_open(struct model *m, const char *argument, struct entity **chosen,
                          const struct report *r);
 
+/* Likewise; progress goes to the open descriptor fd, a fraction a line, where fd is not -1. */
+enum status reading_open_telling(struct model *m, const char *argument, int fd,
+                                 struct entity **chosen, const struct report *r);
+
 /* Between begin and end Ctrl-C is only noted, so that what is being written becomes whole. */
 struct interrupt {
 	struct sigaction before;

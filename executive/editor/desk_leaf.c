@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "desk_inside.h"
 #include "path.h"
@@ -208,6 +209,20 @@ void desk_errand_progress(struct desk *d)
 		desk_dirty(d, desk_bit(PART_FOOT));
 }
 
+/* Something of that file is there, as the file has it. */
+static bool is_open(const struct desk *d, const char *path)
+{
+	for (int k = 0; k < world_count(d->world); k++) {
+		const struct Ful *f = world_at(d->world, k);
+		struct stat now;
+		if (f->file && !strcmp(f->file, path) && !stat(path, &now) &&
+		    now.st_mtim.tv_sec == f->stamp[0] && now.st_mtim.tv_nsec == f->stamp[1] &&
+		    now.st_size == f->stamp[2])
+			return true;
+	}
+	return false;
+}
+
 /* The project's folder is where relative names are looked for; these are the caller's. */
 void desk_open_next(struct desk *d)
 {
@@ -215,6 +230,14 @@ void desk_open_next(struct desk *d)
 		return;
 	char *file = d->pending[d->pending_at++];
 	char *path = path_absolute(file, NULL);
+	if (path && is_open(d, path)) {
+		desk_say(d, REPORT_INFO, "%s is open already; V175 reads it anew.",
+		         path_file_name(path));
+		free(path);
+		free(file);
+		desk_open_next(d);
+		return;
+	}
 	desk_run_code(d, "V175", "file", path ? path : file);
 	free(path);
 	free(file);

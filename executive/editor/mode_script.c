@@ -6,6 +6,7 @@
 
 #include "modes.h"
 #include "path.h"
+#include "reading_child.h"
 #include "routine.h"
 
 static atomic_bool interrupted;
@@ -45,6 +46,7 @@ int mode_script(int argc, char **argv)
 {
 	const struct report r = report_stderr("batten");
 	struct project project = { 0 };
+	struct reading_child reading = { NULL };
 	struct world *world = NULL;
 	bool keep_going = false, journal = false;
 	int failed = 0;
@@ -65,6 +67,7 @@ int mode_script(int argc, char **argv)
 		free(here);
 	}
 	if (st == ST_OK) {
+		world_set_reader(world, reading_child, &reading);
 		struct act a = { .world = world,
 			         .project = &project,
 			         .report = r,

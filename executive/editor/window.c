@@ -185,6 +185,8 @@ static enum status make_house(struct window *w)
 	if (st == ST_OK)
 		st = world_create(&w->world, w->project.folder);
 	if (st == ST_OK)
+		world_set_reader(w->world, reading_child, &w->reading);
+	if (st == ST_OK)
 		st = menu_set_load(&w->menus, w->project.folder, &w->report);
 	if (st == ST_OK)
 		st = help_load(&w->help, w->project.folder, &w->report);
@@ -221,6 +223,8 @@ static enum status make_desk(struct window *w)
 	st = desk_create(&w->desk, &house, &ports);
 	if (st != ST_OK)
 		return report_error(&w->report, st, "memory ran out");
+	if (store.n_warnings)
+		desk_say(w->desk, REPORT_WARNING, "%s", store.warning);
 	if (session != ST_OK)
 		desk_say(w->desk, REPORT_WARNING, "%s", store.error);
 	window_listen(w);

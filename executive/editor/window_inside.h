@@ -9,6 +9,7 @@
 
 #include "compose.h"
 #include "desk.h"
+#include "reading_child.h"
 
 struct window {
 	GLFWwindow *glfw;
@@ -16,6 +17,7 @@ struct window {
 	struct project project;
 	struct menu_set menus;
 	struct help *help;
+	struct reading_child reading; /* of foreign files */
 	struct world *world;
 	struct desk *desk;
 	struct jobs_link *link;

@@ -27,6 +27,33 @@ static const struct Ful *named(const struct act *a, const struct arguments *give
 	return f;
 }
 
+/* "hull.igs: 3 surfaces, 2 curves" */
+void opened_say(struct act *a, const char *file, int before)
+{
+	static const char *const many[N_ENTITY_KINDS] = {
+		[ENTITY_CURVE] = "curves",
+		[ENTITY_SURFACE] = "surfaces",
+		[ENTITY_CURVE_ON_SURFACE] = "curves on surfaces",
+		[ENTITY_POINTS] = "point lists",
+	};
+	static const enum entity_kind order[] = { ENTITY_SURFACE, ENTITY_CURVE,
+		                                  ENTITY_CURVE_ON_SURFACE, ENTITY_POINTS };
+	int n[N_ENTITY_KINDS] = { 0 };
+	struct text t = { 0 };
+
+	for (int k = before; k < world_count(a->world); k++)
+		n[world_at(a->world, k)->entity.kind]++;
+	for (size_t k = 0; k < sizeof order / sizeof *order; k++)
+		if (n[order[k]])
+			text_addf(&t, "%s%d %s", t.n ? ", " : "", n[order[k]],
+			          n[order[k]] == 1 ? entity_kind_name(order[k]) : many[order[k]]);
+	if (world_count(a->world) == before + 1)
+		act_say(a, "%s: %s", world_at(a->world, before)->name, t.s ? t.s + 2 : "");
+	else if (world_count(a->world) > before)
+		act_say(a, "%s: %s", path_file_name(file), t.s ? t.s : "");
+	text_finish(&t);
+}
+
 enum status files_open(struct act *a, const struct arguments *given)
 {
 	const int before = world_count(a->world);
@@ -36,9 +63,7 @@ enum status files_open(struct act *a, const struct arguments *given)
 		entity = NULL;
 	enum status st = world_open(a->world, argument_text(given, "file"), entity, &p, &a->report);
 
-	for (int k = before; k < world_count(a->world); k++)
-		act_say(a, "%s: %s", world_at(a->world, k)->name,
-		        entity_kind_name(world_at(a->world, k)->entity.kind));
+	opened_say(a, argument_text(given, "file"), before);
 	return st;
 }
 

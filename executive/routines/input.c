@@ -18,9 +18,7 @@ static enum status open_kind(struct act *a, const char *file, const char *entiti
 	enum status st = world_open_kinds(a->world, file, entities, 1u << a->routine->detail, &p,
 	                                  &a->report);
 
-	for (int k = before; k < world_count(a->world); k++)
-		act_say(a, "%s: %s", world_at(a->world, k)->name,
-		        entity_kind_name(world_at(a->world, k)->entity.kind));
+	opened_say(a, file, before);
 	return st;
 }
 

@@ -22,6 +22,8 @@ enum status act_memory(const struct act *a); /* "memory ran out" */
 /* The current thing, of that kind where one is asked for; the sentence says what to do. NULL: none. */
 const struct Ful *act_current(const struct act *a, bool curve);
 const struct Ful *act_current_kind(const struct act *a, enum entity_kind kind);
+/* Say what of a file was opened: all from place `before` on. */
+void opened_say(struct act *a, const char *file, int before);
 /* Relative to the project's folder; fresh. */
 char *act_path(const struct act *a, const char *name);
 

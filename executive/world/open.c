@@ -1,10 +1,33 @@
 /* open.c - from a geometry file to things. */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "path.h"
 #include "text.h"
 #include "world_private.h"
+
+void world_stamp(const char *path, int64_t stamp[3])
+{
+	struct stat s = { 0 };
+
+	stat(path, &s);
+	stamp[0] = s.st_mtim.tv_sec;
+	stamp[1] = s.st_mtim.tv_nsec;
+	stamp[2] = s.st_size;
+}
+
+void world_set_reader(struct world *w, world_reader *read, void *data)
+{
+	w->read = read;
+	w->read_data = data;
+}
+
+enum status world_read(const struct world *w, struct model *out, const char *path,
+                       const struct progress *p, const struct report *r)
+{
+	return w->read ? w->read(w->read_data, out, path, p, r) : model_read(out, path, p, r);
+}
 
 static int count_numbered(const struct model *m)
 {
@@ -53,6 +76,15 @@ static void choose_bases(const struct model *m, bool *chosen)
 			chosen[m->entities[k].surface] = true;
 }
 
+/* The first of them is current; what was asked for is selected, not a surface that it needs. */
+static void make_current(struct world *w, int before, int selected)
+{
+	for (int k = w->n - 1; k >= before; k--)
+		thing_make_current(w, w->things[k]);
+	if (thing_get(w, selected))
+		thing_make_current(w, thing_get(w, selected));
+}
+
 static enum status take_one(struct world *w, struct model *m, int k, const char *path,
                             const char *basic, bool several, int *id)
 {
@@ -72,6 +104,7 @@ static enum status take_one(struct world *w, struct model *m, int k, const char 
 		if (st == ST_OK)
 			st = model_set_text(&f->file, path);
 		if (st == ST_OK) {
+			world_stamp(path, f->stamp);
 			*id = f->id;
 			st = thing_append(w, f);
 		} else
@@ -81,8 +114,10 @@ static enum status take_one(struct world *w, struct model *m, int k, const char 
 	return st;
 }
 
-enum status world_take(struct world *w, struct model *m, const char *path, const bool *chosen,
-                       const struct report *r)
+/* The things of a model that has been read, those of `chosen`; `first` of them was asked for first. Entities
+ * are moved. */
+static enum status take(struct world *w, struct model *m, const char *path, const bool *chosen,
+                        int first, const struct report *r)
 {
 	const int before = w->n;
 	const bool several = count_numbered(m) > 1;
@@ -94,7 +129,7 @@ enum status world_take(struct world *w, struct model *m, const char *path, const
 	for (int k = 0; k < m->n && st == ST_OK; k++)
 		on[k] = m->entities[k].surface; /* a thing keeps no place in a file */
 	for (int k = 0; k < m->n && st == ST_OK; k++)
-		if (chosen ? chosen[k] : m->entities[k].number > 0)
+		if (chosen[k])
 			st = take_one(w, m, k, path, basic, several, &ids[k]);
 	for (int k = 0; k < m->n && st == ST_OK; k++)
 		if (ids[k] && on[k] >= 0)
@@ -102,8 +137,8 @@ enum status world_take(struct world *w, struct model *m, const char *path, const
 	if (st != ST_OK)
 		while (w->n > before)
 			ful_destroy(w->things[--w->n]);
-	for (int k = before; k < w->n; k++)
-		thing_make_current(w, w->things[k]);
+	if (st == ST_OK)
+		make_current(w, before, ids[first]);
 	w->revision++;
 	free(basic);
 	free(ids);
@@ -138,7 +173,7 @@ enum status world_open_kinds(struct world *w, const char *path, const char *enti
 
 	if (!full)
 		return out_of_memory(r);
-	enum status st = model_read(&m, full, p, r);
+	enum status st = world_read(w, &m, full, p, r);
 	if (st != ST_OK) {
 		free(full);
 		return st;
@@ -151,8 +186,11 @@ enum status world_open_kinds(struct world *w, const char *path, const char *enti
 	if (st == ST_OK)
 		st = choose_kinds(&m, kinds, entities != NULL, chosen, r);
 	if (st == ST_OK) {
+		int first = 0;
+		while (!chosen[first]) /* choose_kinds has found one */
+			first++;
 		choose_bases(&m, chosen);
-		st = world_take(w, &m, full, chosen, r);
+		st = take(w, &m, full, chosen, first, r);
 	}
 	for (int k = 0; k < m.n_warnings; k++)
 		report_warning(r, "%s", m.warnings[k]);

@@ -113,6 +113,9 @@ static enum status add_thing(const struct Ful *f, const char *folder, json_t *th
 
 	if (!o)
 		return out_of_memory(r);
+	json_object_set_new(o, "stamp",
+	                    json_pack("[I, I, I]", (json_int_t)f->stamp[0], (json_int_t)f->stamp[1],
+	                              (json_int_t)f->stamp[2]));
 	json_set_int(o, "place", f->place);
 	json_set_int(o, "number", f->entity.number);
 	json_object_set_new(o, "display", display_json(&f->display));

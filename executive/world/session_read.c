@@ -109,6 +109,7 @@ static void sight_read(struct sight *s, const json_t *o)
 
 /* The file read last, since things of one file follow each other. */
 struct source {
+	const struct world *world;
 	char *path;
 	struct model m;
 };
@@ -117,7 +118,7 @@ static void source_finish(struct source *s)
 {
 	free(s->path);
 	model_finish(&s->m);
-	*s = (struct source){ 0 };
+	*s = (struct source){ .world = s->world };
 	model_init(&s->m);
 }
 
@@ -126,7 +127,7 @@ static enum status source_open(struct source *s, const char *path, const struct 
 	if (s->path && !strcmp(s->path, path))
 		return ST_OK;
 	source_finish(s);
-	enum status st = model_read(&s->m, path, NULL, r);
+	enum status st = world_read(s->world, &s->m, path, NULL, r);
 	if (st == ST_OK)
 		st = model_set_text(&s->path, path);
 	return st;
@@ -141,6 +142,21 @@ static const struct entity *source_find(const struct source *s, const json_t *o,
 	return e && !strcmp(entity_kind_name(e->kind), json_text(o, "kind", "")) ? e : NULL;
 }
 
+/* A foreign file that is another one now may be one that never ends: the start does not wait for it. */
+static bool is_another(const json_t *o, const char *path)
+{
+	const json_t *stamp = json_object_get(o, "stamp");
+	int64_t now[3];
+	bool same = true;
+
+	if (json_array_size(stamp) != 3 || path_has_suffix(path, ".base"))
+		return false;
+	world_stamp(path, now);
+	for (size_t k = 0; k < 3; k++)
+		same = same && json_integer_value(json_array_get(stamp, k)) == now[k];
+	return !same && now[2] > 0;
+}
+
 static enum status read_thing(struct world *w, const json_t *o, const char *folder,
                               struct source *s, const struct report *r)
 {
@@ -152,7 +168,14 @@ static enum status read_thing(struct world *w, const json_t *o, const char *fold
 
 	if (!path)
 		return ST_RESOURCE;
-	enum status st = source_open(s, path, r);
+	enum status st = ST_OK;
+	if (!kept && is_another(o, path)) {
+		report_warning(r, "'%s' is left out: '%s' has changed since; V175 opens it", name,
+		               path);
+		free(path);
+		return ST_OK;
+	}
+	st = source_open(s, path, r);
 	const struct entity *e = st == ST_OK ? source_find(s, o, kept != NULL) : NULL;
 	free(path);
 	if (!e) {
@@ -169,6 +192,8 @@ static enum status read_thing(struct world *w, const json_t *o, const char *fold
 	f->saved = !kept;
 	f->alone = json_flag(o, "alone", false);
 	f->place = (int)json_int(o, "place", 0);
+	for (size_t k = 0; k < 3; k++)
+		f->stamp[k] = json_integer_value(json_array_get(json_object_get(o, "stamp"), k));
 	f->entity.number = (int)json_int(o, "number", 0);
 	f->copy_of = (int)json_int(o, "copy_of", 0);
 	f->offset_of = (int)json_int(o, "offset_of", 0);
@@ -264,7 +289,7 @@ enum status world_restore_session(struct world *w, const struct report *r)
 	char *text = NULL;
 	size_t n, k;
 	json_t *o = NULL, *x;
-	struct source s = { 0 };
+	struct source s = { .world = w };
 	enum status st = path ? ST_OK : out_of_memory(r);
 
 	model_init(&s.m);

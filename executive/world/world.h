@@ -45,6 +45,7 @@ struct Ful {
 	int copy_of, offset_of, on; /* ids, 0: none; on: the surface a curve on surface lies on */
 	double offset;              /* distance of offset_of, file units */
 	bool saved;                 /* as it is, it lies in `file` */
+	int64_t stamp[3];           /* of `file` when it was read: seconds, nanoseconds, size */
 	unsigned revision;          /* grows with every change of the geometry: for caches */
 };
 
@@ -120,8 +121,13 @@ bool world_family(const struct world *w, const struct Ful **parent, const struct
 unsigned world_revision(const struct world *w); /* grows with every change of anything here */
 bool world_unsaved(const struct world *w);
 
+/* How geometry files are read: as model_read, which is used unless this sets another. data is borrowed. */
+typedef enum status world_reader(void *data, struct model *out, const char *path,
+                                 const struct progress *p, const struct report *r);
+void world_set_reader(struct world *w, world_reader *read, void *data);
+
 /* Open every entity of a file, or those chosen ("3", "NAME", "D15", several by comma; NULL: all that
- * no other entity uses); the last of each kind becomes current. Names are made unique (-2, -3).
+ * no other entity uses); the first of each kind becomes current. Names are made unique (-2, -3).
  * Not an edit that undo takes back. Errors: as model_read. */
 enum status world_open(struct world *w, const char *path, const char *entities,
                        const struct progress *p, const struct report *r);

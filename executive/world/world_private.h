@@ -36,6 +36,8 @@ struct world {
 	struct history undo, redo;
 	struct step open; /* the edits since world_step_begin */
 	int depth;        /* of begins that have not ended */
+	world_reader *read;
+	void *read_data; /* borrowed */
 	struct sight sight;
 	struct overlay *overlays;
 	int n_overlays;
@@ -67,10 +69,10 @@ enum status out_of_memory(const struct report *r);
 char *name_unique(const struct world *w, const char *wish);
 enum status name_check(const struct world *w, int id, const char *name, const struct report *r);
 
-/* open.c: the things of a model that has been read, those of `chosen` only (NULL: all). Entities are
- * moved. */
-enum status world_take(struct world *w, struct model *m, const char *path, const bool *chosen,
-                       const struct report *r);
+/* open.c: by the reader set, or model_read. */
+enum status world_read(const struct world *w, struct model *out, const char *path,
+                       const struct progress *p, const struct report *r);
+void world_stamp(const char *path, int64_t stamp[3]); /* zeros: it is not there */
 
 /* history.c */
 enum status history_room(struct world *w); /* for one more change: so that recording cannot fail */

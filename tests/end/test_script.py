@@ -127,7 +127,7 @@ def test_journal(project):
         journal = read(project, ".batten", "journal").decode()
         assert "wait=yes" in journal, journal
         script(other, *journal.splitlines())
-        for name in ("wigley-2.map.exr", "wigley-2.isophote", "mine.base", "mine.map.exr"):
+        for name in ("wigley-1.map.exr", "wigley-1.isophote", "mine.base", "mine.map.exr"):
             assert read(project, name) == read(other, name), name
     finally:
         other.close()

@@ -2,6 +2,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -48,6 +49,52 @@ static char *bytes_of(const struct world *w, const struct Ful *f)
 	return text_take(&t);
 }
 
+static void write_points(const struct place *p, const char *text)
+{
+	char *path = place_path(p, "points.csv");
+	FILE *f = fopen(path, "w");
+
+	assert_non_null(f);
+	fputs(text, f);
+	fclose(f);
+	free(path);
+}
+
+/* A reader that must not be asked at the start. */
+static enum status never_ends(void *data, struct model *out, const char *path,
+                              const struct progress *p, const struct report *r)
+{
+	(void)path;
+	(void)p;
+	model_init(out);
+	++*(int *)data;
+	return report_error(r, ST_INPUT, "it would never end");
+}
+
+/* Foreign files are read again where they are the same; one that has changed is left to the user. */
+static void test_foreign_file(void **state)
+{
+	struct place *p = *state;
+	int asked = 0;
+
+	write_points(p, "1,2,3\n4,5,6\n");
+	assert_int_equal(world_open(p->world, "points.csv", NULL, NULL, NULL), ST_OK);
+	assert_int_equal(world_keep_session(p->world, NULL), ST_OK);
+	restart(p);
+	assert_int_equal(world_count(p->world), 1);
+	assert_int_equal(world_keep_session(p->world, NULL), ST_OK);
+	write_points(p, "1,2,3\n4,5,6\n7,8,9\n");
+	world_destroy(p->world);
+	assert_int_equal(world_create(&p->world, p->folder), ST_OK);
+	world_set_reader(p->world, never_ends, &asked);
+	assert_int_equal(world_restore_session(p->world, &p->said.report), ST_OK);
+	assert_int_equal(world_count(p->world), 0);
+	assert_int_equal(asked, 0);
+	assert_non_null(strstr(p->said.warning, "has changed since"));
+	assert_int_equal(world_open(p->world, "points.csv", NULL, NULL, NULL), ST_INPUT);
+	assert_int_equal(asked, 1);
+}
+
 static void test_round_trip(void **state)
 {
 	struct place *p = *state;
@@ -74,6 +121,9 @@ static void test_round_trip(void **state)
 	s->has_camera = true;
 	s->camera = (struct camera){ .kind = CAMERA_PERSPECTIVE, .eye = { 1, 2, 3 }, .half = 0.5 };
 	s->bell = false;
+	s->split = SPLIT_SIDE;
+	s->has_beside = true;
+	s->beside = (struct camera){ .eye = { 4, 5, 6 }, .half = 0.25 };
 	assert_int_equal(world_set_default(p->world, "curvature", "grid", "64x32"), ST_OK);
 	char *map = place_path(p, "two.base"); /* any file that is there */
 	assert_int_equal(world_show(p->world, &(struct overlay){ .kind = OVERLAY_MAP,
@@ -104,6 +154,9 @@ static void test_round_trip(void **state)
 		free(before[k]);
 	}
 	assert_int_equal(world_find(p->world, "two-2", r)->id, ball);
+	assert_int_equal(world_sight(p->world)->split, SPLIT_SIDE);
+	assert_true(world_sight(p->world)->has_beside);
+	assert_true(world_sight(p->world)->beside.eye.z == 6);
 	assert_false(world_by_id(p->world, ball)->saved);
 	assert_true(world_find(p->world, "diagonal", r)->saved);
 	assert_int_equal(world_find(p->world, "diagonal", r)->on,
@@ -216,6 +269,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(test_round_trip, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_foreign_file, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_sweep, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_missing_files, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_damaged, setup, teardown),

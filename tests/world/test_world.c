@@ -71,9 +71,9 @@ static void test_open(void **state)
 	place_spheres(p, "three.base", 3);
 	assert_int_equal(world_open(w, "ball.base", NULL, NULL, r), ST_OK);
 	assert_int_equal(world_open(w, "three.base", NULL, NULL, r), ST_OK);
-	assert_open(p, "ball three-1 three-2 three-3 | three-3,-");
+	assert_open(p, "ball three-1 three-2 three-3 | three-1,-");
 	assert_int_equal(world_open(w, "three.base", "3,1", NULL, r), ST_OK);
-	assert_open(p, "ball three-1 three-2 three-3 three-1-2 three-3-2 | three-3-2,-");
+	assert_open(p, "ball three-1 three-2 three-3 three-1-2 three-3-2 | three-1-2,-");
 	assert_false(world_unsaved(w));
 	assert_true(world_find(w, "ball", r)->alone);
 	assert_false(world_find(w, "three-1", r)->alone);
