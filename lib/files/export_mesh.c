@@ -50,7 +50,8 @@ enum status export_mesh(const struct model *m, mesh_writer *write, const char *p
 		tolerance = default_tolerance * x.size;
 	const struct tessellate_limits limits = { .chord = tolerance,
 		                                  .angle = angle * M_PI / 180,
-		                                  .join = fmin(tolerance, join_within * x.size) };
+		                                  .orient = true,
+		                                  .join = join_within * x.size };
 	if (st == ST_OK) {
 		st = tessellate(&mesh, x.faces, x.n, &limits, NULL, r);
 		if (st == ST_OK)

@@ -12,7 +12,9 @@ static const double pi = 3.14159265358979323846;
 
 static struct tessellate_limits limits_of(double chord, double degrees)
 {
-	return (struct tessellate_limits){ chord, degrees * pi / 180, 1e-6, false };
+	return (struct tessellate_limits){
+		.chord = chord, .angle = degrees * pi / 180, .join = 1e-6, .orient = true
+	};
 }
 
 static void make_mesh(struct mesh *m, const struct surface *s, int n, double chord, double degrees)

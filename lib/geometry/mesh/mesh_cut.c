@@ -1,4 +1,4 @@
-/* mesh_cut.c - edges cut into pieces that are straight enough. */
+/* mesh_cut.c - edges cut into pieces that are straight enough; all of one line at the same points. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,33 +9,54 @@ enum { DEPTH_MAX = 24, POLE_DEPTH_MAX = 7 };
 /* Of its length: an edge that strays less is straight. */
 static const double straight_within = 1e-9;
 
+/* Of its length: a bend so near to an end is the end. */
+static const double short_of = 1e-7;
+
 /* Largest turn between neighbouring rays from a pole. Radians. */
 static const double pole_turn = 0.5;
 
 /* One line in space being cut: the edge that gives the points, and all that share them. */
 struct line {
 	struct mesh_build *b;
-	const struct mesh_edge *master;
+	struct mesh_edge *master;
 	const int *members;
 	int n_members;
-	double *t; /* owned; rising */
-	int n, room;
+	double *ways; /* owned; for each depth the members' parameters at the middle */
+	double *ends; /* owned; at the start, then at the end of the piece between knots at hand */
 };
 
-static enum status line_add(struct line *x, double t)
+static enum status vertex_point(struct mesh_build *b, int vertex, int *point)
 {
-	enum status st = mesh_grow((void **)&x->t, &x->room, x->n + 1, sizeof *x->t);
-	if (st == ST_OK)
-		x->t[x->n++] = t;
+	struct mesh_vertex *v = &b->vertices[vertex];
+	enum status st = v->point < 0 ? mesh_add_point(b, v->p, &v->point) : ST_OK;
+	*point = v->point;
 	return st;
 }
 
-static double from_chord(struct vec3 p, struct vec3 a, struct vec3 b)
+static enum status add_node(struct mesh_build *b, struct mesh_edge *e, double t, int point)
 {
-	const struct vec3 d = vec3_sub(b, a), w = vec3_sub(p, a);
-	const double dd = vec3_dot(d, d);
-	const double f = dd > 0 ? fmin(fmax(vec3_dot(w, d) / dd, 0), 1) : 0;
-	return vec3_length(vec3_along(w, -f, d));
+	enum status st =
+	        mesh_grow((void **)&e->nodes, &e->nodes_room, e->n_nodes + 1, sizeof *e->nodes);
+	if (st != ST_OK)
+		return st;
+	struct mesh_node *node = &e->nodes[e->n_nodes++];
+	*node = (struct mesh_node){ .t = t, .point = point };
+	mesh_edge_uv(b, e, t, node->uv);
+	return ST_OK;
+}
+
+/* A node of the master and of all others; those that run against it are turned about at last. */
+static enum status line_add(struct line *x, double t, const double *ways)
+{
+	struct mesh_build *b = x->b;
+	struct mesh_edge *m = x->master;
+	const bool end = t == m->t[0] || t == m->t[1];
+	int point;
+	enum status st = end || m->degenerate ? vertex_point(b, m->vertex[t != m->t[0]], &point)
+	                                      : mesh_add_point(b, mesh_edge_point(b, m, t), &point);
+	for (int k = 0; k < x->n_members && st == ST_OK; k++)
+		st = add_node(b, &b->edges[x->members[k]], ways[k], point);
+	return st;
 }
 
 static double angle_between(struct vec3 a, struct vec3 b)
@@ -43,22 +64,8 @@ static double angle_between(struct vec3 a, struct vec3 b)
 	return atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b));
 }
 
-/* How far the piece strays from its chord. */
-static double stray(const struct line *x, double from, double to, struct vec3 a, struct vec3 b)
-{
-	double worst = 0;
-	const struct mesh_edge *e = x->master;
-	for (int i = 0; i < e->n_samples; i++)
-		if (e->samples[i].t > from && e->samples[i].t < to)
-			worst = fmax(worst, from_chord(e->samples[i].p, a, b));
-	for (int i = 1; i < 4; i++)
-		worst = fmax(worst, from_chord(mesh_edge_point(x->b, e, from + (to - from) * i / 4),
-		                               a, b));
-	return worst;
-}
-
-/* The normals of some face turn too far between points of the line; p[1] is in the middle. */
-static bool turns(const struct line *x, const struct vec3 p[3])
+/* The normals of some face turn too far between points of the line. */
+static bool turns(const struct line *x, const double *from, const double *middle, const double *to)
 {
 	const double limit = x->b->limits->angle;
 	for (int k = 0; k < x->n_members; k++) {
@@ -66,11 +73,9 @@ static bool turns(const struct line *x, const struct vec3 p[3])
 		const struct mesh_creases *c = &x->b->creases[e->face];
 		double uv[3][2];
 		struct vec3 n[3];
-		for (int i = 0; i < 3; i++) {
-			double t;
-			mesh_edge_nearest(x->b, e, p[i], &t);
-			mesh_edge_uv(x->b, e, t, uv[i]);
-		}
+		mesh_edge_uv(x->b, e, from[k], uv[0]);
+		mesh_edge_uv(x->b, e, middle[k], uv[1]);
+		mesh_edge_uv(x->b, e, to[k], uv[2]);
 		for (int i = 0; i < 3; i++)
 			n[i] = mesh_patch_normal(x->b->faces[e->face].surface, c,
 			                         mesh_patch_of(c, uv[1]), uv[i]);
@@ -82,25 +87,49 @@ static bool turns(const struct line *x, const struct vec3 p[3])
 	return false;
 }
 
-/* Put the parameters between from and to, and `to` itself, on the list. */
-static enum status cut_between(struct line *x, double from, double to, int depth, int least)
+/* Where the members pass the master's point at t, between their parameters before and behind it:
+ * always between, so that their nodes keep the order. */
+static void find_ways(const struct line *x, double t, const double *from, const double *to,
+                      double *ways)
+{
+	const struct vec3 p = mesh_edge_point(x->b, x->master, t);
+	for (int k = 0; k < x->n_members; k++) {
+		const struct mesh_edge *e = &x->b->edges[x->members[k]];
+		const double lo = fmin(from[k], to[k]), hi = fmax(from[k], to[k]);
+		const double least = 0.05 * (hi - lo);
+		ways[k] = t;
+		if (e == x->master)
+			continue;
+		mesh_edge_nearest(x->b, e, p, lo, hi, &ways[k]);
+		ways[k] = fmin(fmax(ways[k], lo + least), hi - least);
+	}
+}
+
+/* Nodes between from and to, and at `to` itself. */
+static enum status cut_between(struct line *x, const double t[2], const double *from,
+                               const double *to, int depth, int least)
 {
 	const struct tessellate_limits *l = x->b->limits;
-	const double middle = 0.5 * (from + to);
-	const struct vec3 p[3] = { mesh_edge_point(x->b, x->master, from),
+	const double middle = 0.5 * (t[0] + t[1]);
+	const struct vec3 p[3] = { mesh_edge_point(x->b, x->master, t[0]),
 		                   mesh_edge_point(x->b, x->master, middle),
-		                   mesh_edge_point(x->b, x->master, to) };
-	const double far = stray(x, from, to, p[0], p[2]);
+		                   mesh_edge_point(x->b, x->master, t[1]) };
+	const double far = mesh_edge_stray(x->b, x->master, t[0], t[1]);
 	const double length = vec3_length(vec3_sub(p[1], p[0])) + vec3_length(vec3_sub(p[2], p[1]));
+	double *ways = x->ways + (size_t)depth * x->n_members;
 	bool split =
 	        depth < least || far > l->chord || (depth == 0 && far > straight_within * length);
+	if (depth >= DEPTH_MAX || middle <= t[0] || middle >= t[1])
+		return line_add(x, t[1], to);
+	find_ways(x, middle, from, to, ways);
 	if (!split && length > l->chord)
 		split = angle_between(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[1])) > l->angle ||
-		        turns(x, p);
-	if (!split || depth >= DEPTH_MAX || middle <= from || middle >= to)
-		return line_add(x, to);
-	enum status st = cut_between(x, from, middle, depth + 1, least);
-	return st == ST_OK ? cut_between(x, middle, to, depth + 1, least) : st;
+		        turns(x, from, ways, to);
+	if (!split)
+		return line_add(x, t[1], to);
+	enum status st = cut_between(x, (double[2]){ t[0], middle }, from, ways, depth + 1, least);
+	return st == ST_OK ? cut_between(x, (double[2]){ middle, t[1] }, ways, to, depth + 1, least)
+	                   : st;
 }
 
 /* Direction in which the surface leaves a border that is one point. */
@@ -120,136 +149,143 @@ static enum status cut_pole(struct line *x, double from, double to, int depth)
 	const struct vec3 a = ray_at(x, from), m = ray_at(x, middle), b = ray_at(x, to);
 	if (depth >= POLE_DEPTH_MAX ||
 	    (angle_between(a, m) <= 0.5 * pole_turn && angle_between(m, b) <= 0.5 * pole_turn))
-		return line_add(x, to);
+		return line_add(x, to, &to);
 	enum status st = cut_pole(x, from, middle, depth + 1);
 	return st == ST_OK ? cut_pole(x, middle, to, depth + 1) : st;
+}
+
+/* Between the master's sharp bends, piece by piece. */
+static enum status cut_pieces(struct line *x)
+{
+	const struct mesh_edge *e = x->master;
+	const int least = e->vertex[0] == e->vertex[1] ? 2 : 0;
+	double *from = x->ends, *to = x->ends + x->n_members, *last = to + x->n_members;
+	const double near = short_of * mesh_edge_length(x->b, e, e->t[0], e->t[1]);
+	double at = e->t[0];
+	enum status st = ST_OK;
+	for (int k = 0; k < x->n_members; k++) {
+		const struct mesh_edge *m = &x->b->edges[x->members[k]];
+		from[k] = m->t[m->reversed];
+		last[k] = m->t[!m->reversed];
+	}
+	for (int i = 1; e->uv && i < e->uv->n && st == ST_OK; i++) {
+		const double t = e->uv->knots[i];
+		if (!(t > at && t < e->t[1] && t == e->uv->knots[i + e->uv->order - 2]) ||
+		    mesh_edge_length(x->b, e, at, t) <= near ||
+		    mesh_edge_length(x->b, e, t, e->t[1]) <= near)
+			continue;
+		find_ways(x, t, from, last, to);
+		st = cut_between(x, (double[2]){ at, t }, from, to, 0, least);
+		memcpy(from, to, (size_t)x->n_members * sizeof *from);
+		at = t;
+	}
+	return st == ST_OK ? cut_between(x, (double[2]){ at, e->t[1] }, from, last, 0, least) : st;
+}
+
+static void turn_nodes(struct mesh_edge *e)
+{
+	for (int i = 0; i < e->n_nodes / 2; i++) {
+		const struct mesh_node node = e->nodes[i];
+		e->nodes[i] = e->nodes[e->n_nodes - 1 - i];
+		e->nodes[e->n_nodes - 1 - i] = node;
+	}
 }
 
 static enum status cut_line(struct line *x)
 {
 	const struct mesh_edge *e = x->master;
-	enum status st = line_add(x, e->t[0]);
-	if (e->degenerate)
-		return st != ST_OK ? st
-		       : e->uv     ? line_add(x, e->t[1])
-		                   : cut_pole(x, e->t[0], e->t[1], 0);
-	const int least = e->vertex[0] == e->vertex[1] ? 2 : 0;
-	double from = e->t[0];
-	for (int i = 1; e->uv && i < e->uv->n && st == ST_OK; i++) {
-		const double t = e->uv->knots[i];
-		if (t > from && t < e->t[1] && t == e->uv->knots[i + e->uv->order - 2]) {
-			st = cut_between(x, from, t, 0, least);
-			from = t;
-		}
+	enum status st;
+	if (e->degenerate) {
+		st = line_add(x, e->t[0], &e->t[0]);
+		if (st == ST_OK)
+			st = e->uv ? line_add(x, e->t[1], &e->t[1])
+			           : cut_pole(x, e->t[0], e->t[1], 0);
+		return st;
 	}
-	return st == ST_OK ? cut_between(x, from, e->t[1], 0, least) : st;
-}
-
-static enum status vertex_point(struct mesh_build *b, int vertex, int *point)
-{
-	struct mesh_vertex *v = &b->vertices[vertex];
-	enum status st = v->point < 0 ? mesh_add_point(b, v->p, &v->point) : ST_OK;
-	*point = v->point;
-	return st;
-}
-
-/* Nodes of the master itself. */
-static enum status set_nodes(struct line *x, struct mesh_edge *e)
-{
-	struct mesh_build *b = x->b;
-	enum status st = ST_OK;
-	e->nodes = malloc((size_t)x->n * sizeof *e->nodes);
-	if (!e->nodes)
-		return ST_RESOURCE;
-	e->n_nodes = x->n;
-	for (int i = 0; i < x->n && st == ST_OK; i++) {
-		struct mesh_node *node = &e->nodes[i];
-		mesh_edge_uv(b, e, x->t[i], node->uv);
-		if (i == 0 || i == x->n - 1 || e->degenerate)
-			st = vertex_point(b, e->vertex[i > 0], &node->point);
-		else
-			st = mesh_add_point(b, mesh_edge_point(b, e, x->t[i]), &node->point);
+	const size_t n = (size_t)x->n_members;
+	x->ways = malloc((DEPTH_MAX + 1) * n * sizeof *x->ways);
+	x->ends = malloc(3 * n * sizeof *x->ends);
+	st = x->ways && x->ends ? ST_OK : ST_RESOURCE;
+	for (size_t k = 0; k < n && st == ST_OK; k++) {
+		const struct mesh_edge *m = &x->b->edges[x->members[k]];
+		x->ends[k] = m->t[m->reversed];
 	}
-	return st;
-}
-
-/* Nodes of an edge that shares the master's points. False: they are not in order on it. */
-static enum status follow(struct mesh_build *b, struct mesh_edge *e, const struct mesh_edge *m,
-                          bool *good)
-{
-	double last = e->t[0];
-	*good = true;
-	e->nodes = malloc((size_t)m->n_nodes * sizeof *e->nodes);
-	if (!e->nodes)
-		return ST_RESOURCE;
-	e->n_nodes = m->n_nodes;
-	for (int i = 0; i < e->n_nodes && *good; i++) {
-		const int from = e->reversed ? m->n_nodes - 1 - i : i;
-		struct mesh_node *node = &e->nodes[i];
-		double t = i == 0 ? e->t[0] : e->t[1];
-		node->point = m->nodes[from].point;
-		if (i > 0 && i < e->n_nodes - 1)
-			mesh_edge_nearest(b, e, b->out->points[node->point], &t);
-		*good = i == 0 || t > last;
-		last = t;
-		mesh_edge_uv(b, e, t, node->uv);
-	}
-	if (!*good) {
-		free(e->nodes);
-		e->nodes = NULL;
-	}
-	return ST_OK;
-}
-
-static enum status cut_alone(struct mesh_build *b, int k, const int *members, int n)
-{
-	struct line x = { .b = b, .master = &b->edges[k], .members = members, .n_members = n };
-	enum status st = cut_line(&x);
 	if (st == ST_OK)
-		st = set_nodes(&x, &b->edges[k]);
-	free(x.t);
-	return st;
-}
-
-static enum status cut_group(struct mesh_build *b, int k, const int *members, int n)
-{
-	enum status st = cut_alone(b, k, members, n);
-	for (int i = 0; i < n && st == ST_OK; i++) {
-		struct mesh_edge *e = &b->edges[members[i]];
-		bool good = true;
-		if (members[i] == k)
-			continue;
-		st = follow(b, e, &b->edges[k], &good);
-		if (st == ST_OK && !good) {
-			e->master = members[i];
-			st = cut_alone(b, members[i], &members[i], 1);
-		}
+		st = line_add(x, e->t[0], x->ends);
+	if (st == ST_OK)
+		st = cut_pieces(x);
+	for (size_t k = 0; k < n; k++) {
+		struct mesh_edge *m = &x->b->edges[x->members[k]];
+		if (m->reversed)
+			turn_nodes(m);
 	}
+	free(x->ways);
+	free(x->ends);
 	return st;
 }
 
 enum status mesh_cut(struct mesh_build *b)
 {
-	/* members of each group, one group behind the other */
-	int *count = calloc((size_t)b->n_edges + 1, sizeof *count);
-	int *members = malloc((size_t)b->n_edges * sizeof *members);
-	enum status st = count && members ? ST_OK : ST_RESOURCE;
-	for (int k = 0; k < b->n_edges && st == ST_OK; k++)
-		count[b->edges[k].master + 1]++;
-	for (int k = 0; k < b->n_edges && st == ST_OK; k++)
-		count[k + 1] += count[k];
-	for (int k = b->n_edges - 1; k >= 0 && st == ST_OK; k--)
-		members[--count[b->edges[k].master + 1]] = k;
-	/* count[k + 1] is now where the group of k begins */
+	enum status st = ST_OK;
 	for (int k = 0; k < b->n_edges && st == ST_OK; k++) {
-		const int at = count[k + 1];
-		const int end = k + 1 < b->n_edges ? count[k + 2] : b->n_edges;
+		const int n = b->groups[k + 1] - b->groups[k];
+		struct line x = { .b = b,
+			          .master = &b->edges[k],
+			          .members = b->members + b->groups[k],
+			          .n_members = n };
 		if (b->stop && atomic_load_explicit(b->stop, memory_order_relaxed))
 			st = ST_CANCELLED;
-		else if (end > at)
-			st = cut_group(b, k, members + at, end - at);
+		else if (n)
+			st = cut_line(&x);
 	}
-	free(count);
-	free(members);
 	return st;
+}
+
+static enum status node_insert(struct mesh_build *b, struct mesh_edge *e, int piece, double t,
+                               int point)
+{
+	enum status st =
+	        mesh_grow((void **)&e->nodes, &e->nodes_room, e->n_nodes + 1, sizeof *e->nodes);
+	if (st != ST_OK)
+		return st;
+	struct mesh_node *node = &e->nodes[piece + 1];
+	memmove(node + 1, node, (size_t)(e->n_nodes - piece - 1) * sizeof *node);
+	e->n_nodes++;
+	*node = (struct mesh_node){ .t = t, .point = point };
+	mesh_edge_uv(b, e, t, node->uv);
+	return ST_OK;
+}
+
+enum status mesh_cut_more(struct mesh_build *b, int edge, int piece, double t)
+{
+	const struct mesh_edge *e = &b->edges[edge];
+	const struct mesh_edge *m = &b->edges[e->master];
+	const int across = m->n_nodes - 2 - piece, at = e->reversed ? across : piece;
+	const double lo = e->nodes[piece].t, hi = e->nodes[piece + 1].t;
+	double tm = isnan(t) ? 0.5 * (lo + hi) : t;
+	int point;
+	if (!(hi > lo && lo < tm && tm < hi))
+		return ST_OK;
+	const double own = tm;
+	if (e != m)
+		mesh_edge_nearest(b, m, mesh_edge_point(b, e, own), m->nodes[at].t,
+		                  m->nodes[at + 1].t, &tm);
+	const struct vec3 p = mesh_edge_point(b, m, tm);
+	enum status st = m->degenerate ? vertex_point(b, m->vertex[0], &point)
+	                               : mesh_add_point(b, p, &point);
+	for (int i = b->groups[e->master]; i < b->groups[e->master + 1] && st == ST_OK; i++) {
+		struct mesh_edge *x = &b->edges[b->members[i]];
+		const int k = x->reversed ? m->n_nodes - 2 - at : at;
+		const double from = x->nodes[k].t, to = x->nodes[k + 1].t;
+		double tx = own;
+		if (x != e) {
+			mesh_edge_nearest(b, x, p, from, to, &tx);
+			tx = fmin(fmax(tx, from + 0.05 * (to - from)), to - 0.05 * (to - from));
+		}
+		if (x != m)
+			st = node_insert(b, x, k, tx, point);
+		else
+			tm = tx;
+	}
+	return st == ST_OK ? node_insert(b, &b->edges[e->master], at, tm, point) : st;
 }

@@ -23,12 +23,8 @@ enum status mesh_face_place(struct mesh_face *f, int vertex, const double uv[2],
 		return st;
 	struct mesh_place *x = &f->places[vertex];
 	*x = (struct mesh_place){ .uv = { uv[0], uv[1] }, .point = point, .patch = -1 };
-	if (point >= 0) {
-		x->p = f->b->out->points[point];
-		return ST_OK;
-	}
 	x->p = surface_point(f->s, uv[0], uv[1]);
-	return mesh_add_point(f->b, x->p, &x->point);
+	return point >= 0 ? ST_OK : mesh_add_point(f->b, x->p, &x->point);
 }
 
 struct vec3 mesh_face_normal(struct mesh_face *f, int vertex, int patch)
@@ -114,51 +110,6 @@ static void measure_spans(struct mesh_face *f)
 	}
 }
 
-/* A node on a crease gets just the crease's parameter. */
-static void snap(const struct mesh_face *f, const double in[2], double out[2])
-{
-	for (int d = 0; d < 2; d++) {
-		const double near = MESH_ON_CREASE * (f->s->domain[d][1] - f->s->domain[d][0]);
-		out[d] = in[d];
-		for (int k = 0; k < f->creases->n[d]; k++)
-			if (fabs(in[d] - f->creases->at[d][k]) <= near)
-				out[d] = f->creases->at[d][k];
-	}
-}
-
-/* Vertices of the net for all nodes of a loop, then its edges. */
-static enum status fill_loop(struct mesh_face *f, const struct mesh_loop *loop)
-{
-	const struct mesh_edge *edges = f->b->edges;
-	int n = 0, room = 0, *v = NULL;
-	enum status st = ST_OK;
-	for (int k = loop->first; k >= 0; k = edges[k].next)
-		room += edges[k].n_nodes;
-	v = malloc((size_t)(room ? room : 1) * sizeof *v);
-	if (!v)
-		return ST_RESOURCE;
-	for (int k = loop->first; k >= 0 && st == ST_OK; k = edges[k].next)
-		for (int i = 0; i + 1 < edges[k].n_nodes && st == ST_OK; i++) {
-			const struct mesh_node *node = &edges[k].nodes[i];
-			const int before = f->net.n;
-			int32_t at[2];
-			double uv[2];
-			snap(f, node->uv, uv);
-			mesh_face_at(f, uv, at);
-			st = net_add(&f->net, at[0], at[1], &v[n]);
-			if (st == ST_OK && v[n] >= before)
-				st = mesh_face_place(f, v[n], uv, node->point);
-			n++;
-		}
-	for (int i = 0; i < n && st == ST_OK; i++)
-		if (v[i] < 0)
-			st = ST_INPUT;
-		else if (v[i] != v[(i + 1) % n])
-			st = net_fix(&f->net, v[i], v[(i + 1) % n], NET_FIXED | NET_BORDER);
-	free(v);
-	return st;
-}
-
 /* A normal for a corner where the surface has none, a tip: from a little inside the triangle, as seen
  * between the other two corners. */
 static struct vec3 normal_inside(struct mesh_face *f, const int v[3], int k, int patch)
@@ -207,16 +158,31 @@ static enum status emit(struct mesh_face *f, const int v[3])
 	return st == ST_OK ? mesh_add_triangle(f->b, corner, (const double(*)[2])uv) : st;
 }
 
-enum status mesh_fill(struct mesh_build *b, int face, int first_loop, int n_loops)
+enum status mesh_face_init(struct mesh_face *f, struct mesh_build *b, int face)
 {
-	struct mesh_face f = { .b = b, .s = b->faces[face].surface, .creases = &b->creases[face] };
-	enum status st = net_init(&f.net);
-	measure_sides(&f);
-	measure_spans(&f);
-	for (int k = 0; k < n_loops && st == ST_OK; k++)
-		st = fill_loop(&f, &b->loops[first_loop + k]);
+	*f = (struct mesh_face){
+		.b = b, .face = face, .s = b->faces[face].surface, .creases = &b->creases[face]
+	};
+	measure_sides(f);
+	measure_spans(f);
+	return net_init(&f->net);
+}
+
+void mesh_face_finish(struct mesh_face *f)
+{
+	net_finish(&f->net);
+	free(f->places);
+}
+
+enum status mesh_fill(struct mesh_build *b, int face)
+{
+	struct mesh_face f;
+	struct mesh_flaws flaws = { 0 };
+	enum status st = mesh_face_init(&f, b, face);
 	if (st == ST_OK)
-		st = net_classify(&f.net);
+		st = mesh_face_border(&f, &flaws);
+	if (st == ST_OK && flaws.crossed)
+		st = ST_INPUT;
 	if (st == ST_OK)
 		st = mesh_face_creases(&f);
 	if (st == ST_OK)
@@ -224,7 +190,7 @@ enum status mesh_fill(struct mesh_build *b, int face, int first_loop, int n_loop
 	for (int t = 0; t < f.net.n_triangles && st == ST_OK; t++)
 		if (f.net.triangles[t].inside)
 			st = emit(&f, f.net.triangles[t].v);
-	net_finish(&f.net);
-	free(f.places);
+	mesh_flaws_finish(&flaws);
+	mesh_face_finish(&f);
 	return st;
 }

@@ -1,191 +1,48 @@
-/* mesh_join.c - places where edges end, and edges that are one line in space. */
+/* mesh_join.c - edges that are one line in space, found within ever larger distances: what meets
+ * within less is not touched by what meets within more. */
 #include <stdlib.h>
 
-#include "box.h"
 #include "mesh_private.h"
 
-/* One end of an edge. */
-struct end {
-	struct vec3 p;
-	int edge, which, root; /* root: the first end at the same place */
-};
+enum { LEVELS = 10, LEVEL_STEP = 4 };
 
-static int by_place(const void *a, const void *b)
+int mesh_vertex_root(struct mesh_build *b, int vertex)
 {
-	const struct end *p = a, *q = b;
-	if (p->p.x != q->p.x)
-		return p->p.x < q->p.x ? -1 : 1;
-	return p->edge != q->edge ? p->edge - q->edge : p->which - q->which;
+	struct mesh_vertex *v = b->vertices;
+	while (v[vertex].root != vertex)
+		vertex = v[vertex].root = v[v[vertex].root].root;
+	return vertex;
 }
 
-static double apart(struct vec3 a, struct vec3 b)
+void mesh_vertex_unite(struct mesh_build *b, int vertex, int other)
 {
-	return vec3_length(vec3_sub(a, b));
+	const int p = mesh_vertex_root(b, vertex), q = mesh_vertex_root(b, other);
+	b->vertices[p > q ? p : q].root = p > q ? q : p;
 }
 
-static int root_of(struct end *e, int i)
+static bool is_small(const struct mesh_edge *e, double within)
 {
-	while (e[i].root != i)
-		i = e[i].root = e[e[i].root].root;
-	return i;
-}
-
-/* Ends within the tolerance get one vertex: the place of the first edge's. */
-static enum status find_vertices(struct mesh_build *b)
-{
-	const int n = 2 * b->n_edges;
-	struct end *e = malloc((size_t)n * sizeof *e);
-	b->vertices = malloc((size_t)n * sizeof *b->vertices);
-	if (!e || !b->vertices) {
-		free(e);
-		return ST_RESOURCE;
-	}
-	for (int i = 0; i < n; i++) {
-		struct mesh_edge *edge = &b->edges[i / 2];
-		e[i] = (struct end){ mesh_edge_point(b, edge, edge->t[i % 2]), i / 2, i % 2, 0 };
-	}
-	qsort(e, (size_t)n, sizeof *e, by_place);
-	for (int i = 0; i < n; i++) {
-		e[i].root = i;
-		for (int k = i - 1; k >= 0 && e[i].p.x - e[k].p.x <= b->limits->join; k--)
-			if (apart(e[i].p, e[k].p) <= b->limits->join) {
-				int p = root_of(e, k), q = root_of(e, i);
-				e[p > q ? p : q].root = p > q ? q : p;
-			}
-	}
-	for (int i = 0; i < n; i++) {
-		const int root = root_of(e, i);
-		struct mesh_edge *edge = &b->edges[e[i].edge];
-		if (root == i) {
-			edge->vertex[e[i].which] = b->n_vertices;
-			b->vertices[b->n_vertices++] = (struct mesh_vertex){ e[i].p, -1 };
-		} else { /* roots come before what hangs on them */
-			edge->vertex[e[i].which] = b->edges[e[root].edge].vertex[e[root].which];
-		}
-	}
-	free(e);
-	return ST_OK;
-}
-
-static void find_degenerate(struct mesh_build *b)
-{
-	for (int k = 0; k < b->n_edges; k++) {
-		struct mesh_edge *e = &b->edges[k];
-		e->degenerate = e->vertex[0] == e->vertex[1];
-		for (int i = 0; i < e->n_samples && e->degenerate; i++)
-			e->degenerate = apart(e->samples[i].p, e->samples[0].p) <= b->limits->join;
-	}
-}
-
-static struct box edge_box(const struct mesh_edge *e, double more)
-{
-	struct box x = box_empty();
-	double step = 0;
-	for (int i = 0; i < e->n_samples; i++) {
-		box_add_point(&x, e->samples[i].p);
-		if (i)
-			step = fmax(step, apart(e->samples[i].p, e->samples[i - 1].p));
-	}
-	more += 0.25 * step; /* the curve between samples */
-	x.lo = vec3_sub(x.lo, vec3(more, more, more));
-	x.hi = vec3_add(x.hi, vec3(more, more, more));
-	return x;
-}
-
-struct stop {
-	double t;
-	int vertex;
-};
-
-static int by_parameter(const void *a, const void *b)
-{
-	const struct stop *p = a, *q = b;
-	if (p->t != q->t)
-		return p->t < q->t ? -1 : 1;
-	return p->vertex - q->vertex;
-}
-
-/* First vertex that is not left of x; vertices rise in x. */
-static int first_right_of(const struct mesh_build *b, double x)
-{
-	int lo = 0, hi = b->n_vertices;
-	while (lo < hi) {
-		const int mid = lo + (hi - lo) / 2;
-		if (b->vertices[mid].p.x < x)
-			lo = mid + 1;
-		else
-			hi = mid;
-	}
-	return lo;
-}
-
-/* Part edge k at the vertices of others that lie on it. */
-static enum status part_at_vertices(struct mesh_build *b, int k)
-{
-	const struct mesh_edge *e = &b->edges[k];
-	const double join = b->limits->join;
-	const struct box x = edge_box(e, join);
-	struct stop *stops = NULL;
-	int n = 0, room = 0;
-	enum status st = ST_OK;
-	for (int i = first_right_of(b, x.lo.x);
-	     i < b->n_vertices && b->vertices[i].p.x <= x.hi.x && st == ST_OK; i++) {
-		const struct vec3 p = b->vertices[i].p;
-		double t;
-		if (i == e->vertex[0] || i == e->vertex[1] || p.y < x.lo.y || p.y > x.hi.y ||
-		    p.z < x.lo.z || p.z > x.hi.z || mesh_edge_nearest(b, e, p, &t) > join ||
-		    t <= e->t[0] || t >= e->t[1])
-			continue;
-		st = mesh_grow((void **)&stops, &room, n + 1, sizeof *stops);
-		if (st == ST_OK)
-			stops[n++] = (struct stop){ t, i };
-	}
-	double *t = n ? malloc((size_t)n * sizeof *t) : NULL;
-	int *vertex = n ? malloc((size_t)n * sizeof *vertex) : NULL;
-	if (n && (!t || !vertex))
-		st = ST_RESOURCE;
-	if (n && st == ST_OK) {
-		int m = 0;
-		qsort(stops, (size_t)n, sizeof *stops, by_parameter);
-		for (int i = 0; i < n; i++)
-			if (!m || stops[i].t > t[m - 1]) {
-				t[m] = stops[i].t;
-				vertex[m++] = stops[i].vertex;
-			}
-		st = mesh_edge_part(b, k, t, vertex, m);
-	}
-	free(t);
-	free(vertex);
-	free(stops);
-	return st;
-}
-
-static struct vec3 middle_point(const struct mesh_build *b, const struct mesh_edge *e, double f)
-{
-	return mesh_edge_point(b, e, e->t[0] + f * (e->t[1] - e->t[0]));
-}
-
-/* e runs along m, which ends in the same vertices; then *reversed. */
-static bool runs_along(const struct mesh_build *b, const struct mesh_edge *e,
-                       const struct mesh_edge *m, bool *reversed)
-{
-	double t[3], s;
-	for (int i = 0; i < 3; i++) {
-		if (mesh_edge_nearest(b, m, middle_point(b, e, 0.25 * (i + 1)), &t[i]) >
-		    2 * b->limits->join)
+	for (int i = 1; i < e->n_samples; i++)
+		if (!(vec3_length(vec3_sub(e->samples[i].p, e->samples[0].p)) <= within))
 			return false;
-		/* and back: one may be longer than the other */
-		if (mesh_edge_nearest(b, e, middle_point(b, m, 0.25 * (i + 1)), &s) >
-		    2 * b->limits->join)
-			return false;
-	}
-	if (m->vertex[0] == m->vertex[1])
-		*reversed = t[0] > t[2];
-	else
-		*reversed = e->vertex[0] != m->vertex[0];
 	return true;
 }
 
+/* Edges that are one point: at first all as small as that, later those whose ends are one vertex. */
+static void find_degenerate(struct mesh_build *b, double within, bool first)
+{
+	for (int k = 0; k < b->n_edges; k++) {
+		struct mesh_edge *e = &b->edges[k];
+		if (e->joined || e->degenerate || !is_small(e, within))
+			continue;
+		if (first)
+			mesh_vertex_unite(b, e->vertex[0], e->vertex[1]);
+		e->degenerate =
+		        mesh_vertex_root(b, e->vertex[0]) == mesh_vertex_root(b, e->vertex[1]);
+	}
+}
+
+/* An edge and the vertices it runs between. */
 struct pair {
 	int low, high, edge;
 };
@@ -198,45 +55,122 @@ static int by_vertices(const void *a, const void *b)
 	return p->high != q->high ? p->high - q->high : p->edge - q->edge;
 }
 
-static enum status find_masters(struct mesh_build *b)
+/* The widest gap between an edge and its master, at a few places. */
+static double gap_between(const struct mesh_build *b, const struct mesh_edge *e,
+                          const struct mesh_edge *m)
 {
-	struct pair *p = malloc((size_t)b->n_edges * sizeof *p);
+	double widest = 0, t;
+	for (int i = 0; i <= 4; i++) {
+		const struct vec3 p =
+		        mesh_edge_point(b, e, e->t[0] + 0.25 * i * (e->t[1] - e->t[0]));
+		widest = fmax(widest, mesh_edge_nearest(b, m, p, m->t[0], m->t[1], &t));
+	}
+	return widest;
+}
+
+/* Edges between the same vertices that run along each other get one master. */
+static enum status find_masters(struct mesh_build *b, double level)
+{
+	struct pair *p = malloc(((size_t)b->n_edges + 1) * sizeof *p);
+	int n = 0;
 	if (!p)
 		return ST_RESOURCE;
 	for (int k = 0; k < b->n_edges; k++) {
-		const int *v = b->edges[k].vertex;
-		p[k] = (struct pair){ v[0] < v[1] ? v[0] : v[1], v[0] < v[1] ? v[1] : v[0], k };
+		const struct mesh_edge *e = &b->edges[k];
+		if (e->joined || e->degenerate)
+			continue;
+		const int v = mesh_vertex_root(b, e->vertex[0]),
+		          w = mesh_vertex_root(b, e->vertex[1]);
+		p[n++] = (struct pair){ v < w ? v : w, v < w ? w : v, k };
 	}
-	qsort(p, (size_t)b->n_edges, sizeof *p, by_vertices);
-	for (int i = 0; i < b->n_edges; i++) {
+	qsort(p, (size_t)n, sizeof *p, by_vertices);
+	for (int i = 0; i < n; i++) {
 		struct mesh_edge *e = &b->edges[p[i].edge];
-		for (int k = i - 1; k >= 0 && !e->degenerate && e->master == p[i].edge &&
-		                    p[k].low == p[i].low && p[k].high == p[i].high;
-		     k--) {
-			const struct mesh_edge *m = &b->edges[p[k].edge];
-			if (m->master == p[k].edge && !m->degenerate &&
-			    runs_along(b, e, m, &e->reversed))
-				e->master = p[k].edge;
+		for (int k = i - 1;
+		     k >= 0 && !e->joined && p[k].low == p[i].low && p[k].high == p[i].high; k--) {
+			struct mesh_edge *m = &b->edges[p[k].edge];
+			if (m->master != p[k].edge ||
+			    !mesh_runs_along(b, e, e->t, m, m->t, level, &e->reversed))
+				continue;
+			if (p[i].low != p[i].high)
+				e->reversed = mesh_vertex_root(b, e->vertex[0]) !=
+				              mesh_vertex_root(b, m->vertex[0]);
+			e->master = p[k].edge;
+			e->joined = m->joined = true;
+			m->ring = p[i].low == p[i].high;
+			b->gap = fmax(b->gap, gap_between(b, e, m));
 		}
 	}
 	free(p);
 	return ST_OK;
 }
 
+static void settle_vertices(struct mesh_build *b)
+{
+	for (int k = 0; k < b->n_edges; k++)
+		for (int i = 0; i < 2; i++)
+			b->edges[k].vertex[i] = mesh_vertex_root(b, b->edges[k].vertex[i]);
+}
+
+/* Small edges that were joined between two vertices which became one later are one point. */
+static void drop_small(struct mesh_build *b)
+{
+	for (int k = 0; k < b->n_edges; k++) {
+		struct mesh_edge *e = &b->edges[k];
+		const struct mesh_edge *m = &b->edges[e->master];
+		if (!e->joined || m->ring || e->vertex[0] != e->vertex[1] ||
+		    !is_small(m, 4 * b->limits->join))
+			continue;
+		e->degenerate = true;
+	}
+	for (int k = 0; k < b->n_edges; k++)
+		if (b->edges[k].joined && b->edges[k].degenerate) {
+			b->edges[k].joined = b->edges[k].reversed = false;
+			b->edges[k].master = k;
+		}
+}
+
+/* Members of each group, one group behind the other. */
+static enum status find_groups(struct mesh_build *b)
+{
+	b->groups = calloc((size_t)b->n_edges + 2, sizeof *b->groups);
+	b->members = malloc(((size_t)b->n_edges + 1) * sizeof *b->members);
+	if (!b->groups || !b->members)
+		return ST_RESOURCE;
+	for (int k = 0; k < b->n_edges; k++)
+		b->groups[b->edges[k].master + 1]++;
+	for (int k = 0; k < b->n_edges; k++)
+		b->groups[k + 1] += b->groups[k];
+	for (int k = b->n_edges - 1; k >= 0; k--)
+		b->members[--b->groups[b->edges[k].master + 1]] = k;
+	/* groups[k + 1] is now where the group of k begins */
+	for (int k = 0; k < b->n_edges; k++)
+		b->groups[k] = b->groups[k + 1];
+	b->groups[b->n_edges] = b->n_edges;
+	return ST_OK;
+}
+
+static enum status join_within(struct mesh_build *b, double level, bool leave)
+{
+	enum status st = mesh_touch(b, level, leave);
+	if (st == ST_OK)
+		st = find_masters(b, level);
+	find_degenerate(b, level, false);
+	return st;
+}
+
 enum status mesh_join(struct mesh_build *b)
 {
-	enum status st = find_vertices(b);
-	if (st != ST_OK)
-		return st;
-	find_degenerate(b);
-	const int n = b->n_edges;
-	for (int k = 0; k < n && st == ST_OK; k++) {
-		if (b->stop && atomic_load_explicit(b->stop, memory_order_relaxed))
-			return ST_CANCELLED;
-		if (!b->edges[k].degenerate)
-			st = part_at_vertices(b, k);
-	}
+	enum status st = ST_OK;
+	double level = b->limits->join;
+	for (int k = 1; k < LEVELS; k++)
+		level /= LEVEL_STEP;
+	find_degenerate(b, level, true);
+	for (int k = 0; k < LEVELS && st == ST_OK; k++, level *= LEVEL_STEP)
+		st = join_within(b, level, false);
 	if (st == ST_OK)
-		find_degenerate(b);
-	return st == ST_OK ? find_masters(b) : st;
+		st = join_within(b, b->limits->join, true);
+	settle_vertices(b);
+	drop_small(b);
+	return st == ST_OK ? find_groups(b) : st;
 }

@@ -50,6 +50,13 @@ enum status net_add_in(struct net *x, int t, int32_t px, int32_t py, int *vertex
  * on it part it. Errors: ST_INPUT (it crosses a fixed edge), ST_RESOURCE. */
 enum status net_fix(struct net *x, int a, int b, unsigned char flags);
 
+/* The same, no farther than to the first vertex on it, *to: b or one before it. crossed: where it fails
+ * for that, the fixed edge's vertices. */
+enum status net_fix_first(struct net *x, int a, int *to, unsigned char flags, int crossed[2]);
+
+/* What is left of the edge from a to b: 1 inside, 0 outside; -1: there is no such edge. */
+int net_inside_left(const struct net *x, int a, int b);
+
 /* Find which triangles are inside: across an odd number of border edges from the frame.
  * Errors: ST_RESOURCE. */
 enum status net_classify(struct net *x);

@@ -79,15 +79,18 @@ static enum status enqueue(struct edge_queue *q, int a, int b)
 }
 
 /* List the edges crossed on the way from a, which is corner i of t, towards b; *end is the vertex on
- * it that is met first. */
+ * it that is met first; where one is fixed, `crossed` has its vertices. */
 static enum status list_crossed(const struct net *x, int a, int b, int t, int i,
-                                struct edge_queue *q, int *end)
+                                struct edge_queue *q, int *end, int crossed[2])
 {
 	for (;;) {
 		const struct net_triangle *p = &x->triangles[t];
 		const int right = p->v[net_turn_of[i]], left = p->v[net_back_of[i]], o = p->next[i];
-		if (p->edge[i] & NET_FIXED)
+		if (p->edge[i] & NET_FIXED) {
+			crossed[0] = right;
+			crossed[1] = left;
 			return ST_INPUT;
+		}
 		enum status st = right < 4 ? enqueue(q, left, right) : enqueue(q, right, left);
 		if (st != ST_OK)
 			return st;
@@ -167,29 +170,46 @@ static void mend_fresh(struct net *x, const struct edge_queue *fresh)
 	}
 }
 
+enum status net_fix_first(struct net *x, int a, int *to, unsigned char flags, int crossed[2])
+{
+	struct edge_queue across = { 0 }, fresh = { 0 };
+	enum status st = ST_OK;
+	int t, i, end;
+	crossed[0] = crossed[1] = -1;
+	if (!find_way(x, a, *to, &t, &i, &end))
+		return ST_INPUT;
+	if (end < 0) {
+		st = list_crossed(x, a, *to, t, i, &across, &end, crossed);
+		if (st == ST_OK)
+			st = turn_crossed(x, a, end, &across, &fresh);
+	}
+	if (st == ST_OK) {
+		if (find_edge(x, a, end, &t, &i))
+			mark(x, t, i, flags);
+		else
+			st = ST_INPUT;
+		mend_fresh(x, &fresh);
+	}
+	free(across.pairs);
+	free(fresh.pairs);
+	*to = end;
+	return st;
+}
+
 enum status net_fix(struct net *x, int a, int b, unsigned char flags)
 {
 	enum status st = ST_OK;
+	int crossed[2];
 	while (a != b && st == ST_OK) {
-		struct edge_queue crossed = { 0 }, fresh = { 0 };
-		int t, i, end;
-		if (!find_way(x, a, b, &t, &i, &end))
-			return ST_INPUT;
-		if (end < 0) {
-			st = list_crossed(x, a, b, t, i, &crossed, &end);
-			if (st == ST_OK)
-				st = turn_crossed(x, a, end, &crossed, &fresh);
-		}
-		if (st == ST_OK) {
-			if (find_edge(x, a, end, &t, &i))
-				mark(x, t, i, flags);
-			else
-				st = ST_INPUT;
-			mend_fresh(x, &fresh);
-		}
-		free(crossed.pairs);
-		free(fresh.pairs);
+		int end = b;
+		st = net_fix_first(x, a, &end, flags, crossed);
 		a = end;
 	}
 	return st;
+}
+
+int net_inside_left(const struct net *x, int a, int b)
+{
+	int t, i;
+	return find_edge(x, a, b, &t, &i) ? x->triangles[t].inside : -1;
 }

@@ -208,7 +208,9 @@ static enum status refine_triangle(struct mesh_face *f, int t, bool *parted)
 /* Twice the area over the square of the longest edge; 0 for a triangle that is a line. */
 static double shape_of(const struct mesh_face *f, int a, int b, int c)
 {
-	const struct vec3 p = f->places[a].p, q = f->places[b].p, r = f->places[c].p;
+	const struct vec3 *at = f->b->out->points;
+	const struct vec3 p = at[f->places[a].point], q = at[f->places[b].point],
+	                  r = at[f->places[c].point];
 	const struct vec3 x = vec3_sub(q, p), y = vec3_sub(r, p), z = vec3_sub(r, q);
 	const double most = fmax(vec3_dot(x, x), fmax(vec3_dot(y, y), vec3_dot(z, z)));
 	return most > 0 ? vec3_length(vec3_cross(x, y)) / most : 0;
@@ -237,7 +239,9 @@ static void turn_slivers(struct mesh_face *f)
 				continue;
 			double longest = 0;
 			for (int k = 0; k < 3; k++) {
-				const struct vec3 e = vec3_sub(p[turn[k]]->p, p[back[k]]->p);
+				const struct vec3 *at = f->b->out->points;
+				const struct vec3 e =
+				        vec3_sub(at[p[turn[k]]->point], at[p[back[k]]->point]);
 				if (vec3_dot(e, e) > longest) {
 					longest = vec3_dot(e, e);
 					i = k;

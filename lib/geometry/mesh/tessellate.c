@@ -44,12 +44,28 @@ enum status mesh_add_point(struct mesh_build *b, struct vec3 p, int *point)
 	if (st == ST_OK)
 		st = mesh_grow((void **)&b->heads, &b->heads_room, m->n_points + 1,
 		               sizeof *b->heads);
+	if (st == ST_OK)
+		st = mesh_grow((void **)&b->same, &b->same_room, m->n_points + 1, sizeof *b->same);
 	if (st != ST_OK)
 		return st;
 	m->points[m->n_points] = p;
+	b->same[m->n_points] = m->n_points;
 	b->heads[m->n_points] = -1;
 	*point = m->n_points++;
 	return ST_OK;
+}
+
+int mesh_point_root(struct mesh_build *b, int point)
+{
+	while (b->same[point] != point)
+		point = b->same[point] = b->same[b->same[point]];
+	return point;
+}
+
+void mesh_point_unite(struct mesh_build *b, int point, int other)
+{
+	const int p = mesh_point_root(b, point), q = mesh_point_root(b, other);
+	b->same[p > q ? p : q] = p > q ? q : p;
 }
 
 enum status mesh_add_normal(struct mesh_build *b, int point, struct vec3 normal, int *out)
@@ -103,6 +119,11 @@ static void build_finish(struct mesh_build *b)
 	free(b->loops);
 	free(b->creases);
 	free(b->vertices);
+	free(b->groups);
+	free(b->first_loop);
+	free(b->turned);
+	free(b->same);
+	free(b->members);
 	free(b->heads);
 	free(b->next_normal);
 }
@@ -116,12 +137,9 @@ static enum status fill_all(struct mesh_build *b)
 	if (!m->parts)
 		return ST_RESOURCE;
 	m->n_parts = b->n_faces;
-	for (int f = 0, loop = 0; f < b->n_faces && st == ST_OK; f++) {
-		int n = 0;
-		while (loop + n < b->n_loops && b->loops[loop + n].face == f)
-			n++;
+	for (int f = 0; f < b->n_faces && st == ST_OK; f++) {
 		m->parts[f].first = m->n_triangles;
-		st = mesh_fill(b, f, loop, n);
+		st = mesh_fill(b, f);
 		if (st == ST_INPUT) {
 			report_warning(
 			        b->r,
@@ -132,7 +150,6 @@ static enum status fill_all(struct mesh_build *b)
 			st = ST_OK;
 		}
 		m->parts[f].count = m->n_triangles - m->parts[f].first;
-		loop += n;
 	}
 	return st;
 }
@@ -154,7 +171,13 @@ enum status tessellate(struct mesh *out, const struct tessellate_face *faces, in
 	if (st == ST_OK)
 		st = mesh_cut(&b);
 	if (st == ST_OK)
+		st = mesh_uncross(&b);
+	if (st == ST_OK)
 		st = fill_all(&b);
+	if (st == ST_OK && limits->orient)
+		st = mesh_orient(&b);
+	if (st == ST_OK)
+		st = mesh_settle(&b);
 	build_finish(&b);
 	if (st != ST_OK)
 		mesh_finish(out);

@@ -43,6 +43,7 @@ struct tessellate_limits {
 	double angle;    /* largest angle between normals at the ends of an edge, > 0; radians */
 	double join;     /* borders nearer than this are one, >= 0; file units */
 	bool parameters; /* the corners' u, v too */
+	bool orient;     /* turn faces about so that neighbours agree and closed shapes look out */
 };
 
 /*
