@@ -12,7 +12,7 @@ enum status example_add(struct model *m, struct surface *s, const char *name, un
 	entity_init(&e, ENTITY_SURFACE);
 	e.has_color = true;
 	for (int k = 0; k < 3; k++)
-		e.color[k] = (color >> (16 - 8 * k) & 0xff) / 255.0;
+		e.color[k] = (color >> (16 - 8 * k) & 0xff) / 255.f;
 	e.name = strdup(name);
 	e.geometry = *s;
 	*s = (struct surface){ 0 };

@@ -10,7 +10,7 @@ float look_linear(double x)
 	return (float)(x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4));
 }
 
-static struct tint tint_of(const double srgb[3])
+static struct tint tint_of(const float srgb[3])
 {
 	return (struct tint){ look_linear(srgb[0]), look_linear(srgb[1]), look_linear(srgb[2]) };
 }
@@ -64,8 +64,8 @@ enum status look_init(struct look *l, struct work *w, const struct camera *camer
 
 	unsigned rgb = 0;
 	sscanf(work_text(w, "color"), "#%6x", &rgb);
-	const double srgb[3] = { (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0,
-		                 (rgb & 255) / 255.0 };
+	const float srgb[3] = { (rgb >> 16 & 255) / 255.f, (rgb >> 8 & 255) / 255.f,
+		                (rgb & 255) / 255.f };
 	for (int i = 0; i < w->n_surfaces; i++)
 		l->colors[i] = tint_of(has_color(w->entities[i]) ? w->entities[i]->color : srgb);
 	return ST_OK;

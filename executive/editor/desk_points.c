@@ -18,6 +18,8 @@ static struct vec3 point_at(const struct Ful *f, int index)
 
 static int point_count(const struct Ful *f)
 {
+	if (f->entity.kind == ENTITY_POINTS)
+		return 0;
 	return f->entity.kind == ENTITY_SURFACE ? f->entity.geometry.n[0] * f->entity.geometry.n[1]
 	                                        : f->entity.curve.n;
 }

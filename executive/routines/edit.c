@@ -235,7 +235,7 @@ static enum status may_split(const struct act *a, const struct Ful *f, int d, do
 		return report_error(&a->report, ST_PARAMETER,
 		                    "at is %.9g; it must be inside the domain, %.9g to %.9g", at,
 		                    domain[0], domain[1]);
-	if (f->entity.trim.n)
+	if (f->entity.kind == ENTITY_SURFACE && f->entity.trim.n)
 		return report_error(&a->report, ST_PARAMETER,
 		                    "'%s' is trimmed; only surfaces that are not can be split",
 		                    f->name);
@@ -347,7 +347,7 @@ static const struct curve *in_space(const struct act *a, const char *name)
 
 	if (!f || f->entity.kind == ENTITY_CURVE)
 		return f ? &f->entity.curve : NULL;
-	if (f->entity.space.order)
+	if (f->entity.kind == ENTITY_CURVE_ON_SURFACE && f->entity.space.order)
 		return &f->entity.space;
 	report_error(
 	        &a->report, ST_PARAMETER,

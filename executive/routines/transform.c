@@ -44,7 +44,7 @@ static void entity_transform(struct entity *e, const double m[3][4])
 		curve_transform(&e->curve, m);
 	if (e->kind == ENTITY_SURFACE)
 		surface_transform(&e->geometry, m);
-	for (int k = 0; k < e->points.n && e->kind == ENTITY_POINTS; k++) {
+	for (int k = 0; e->kind == ENTITY_POINTS && k < e->points.n; k++) {
 		double *p = e->points.values + 3 * (size_t)k;
 		const struct vec3 q = image(m, vec3(p[0], p[1], p[2]));
 		p[0] = q.x;

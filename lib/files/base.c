@@ -50,7 +50,7 @@ static void field_de(struct scanner *p, struct draft *d)
 
 static void field_source(struct scanner *p, struct draft *d)
 {
-	d->e.source_type = scan_integer(p, "IGES type of the source", 1, INT_MAX);
+	d->e.source_type = (unsigned)scan_integer(p, "IGES type of the source", 1, SOURCE_TYPE_MAX);
 }
 
 static void field_trims(struct scanner *p, struct draft *d)
@@ -72,8 +72,11 @@ static void field_used(struct scanner *p, struct draft *d)
 
 static void field_color(struct scanner *p, struct draft *d)
 {
+	double color[3] = { 0 };
+	scan_numbers(p, color, 3, "color");
 	d->e.has_color = true;
-	scan_numbers(p, d->e.color, 3, "color");
+	for (int i = 0; i < 3; i++)
+		d->e.color[i] = (float)color[i];
 }
 
 static void field_attribute(struct scanner *p, struct draft *d)
@@ -306,7 +309,7 @@ static enum status check_shape(struct scanner *p, struct draft *d)
 		st = surface_check(&d->e.geometry, what, &store.report);
 	else if (d->e.kind != ENTITY_POINTS)
 		st = curve_check(&d->e.curve, what, &store.report);
-	if (st == ST_OK && d->e.space.order)
+	if (st == ST_OK && d->e.kind == ENTITY_CURVE_ON_SURFACE && d->e.space.order)
 		st = curve_check(&d->e.space, "its curve in space", &store.report);
 	if (st == ST_OK)
 		return ST_OK;
@@ -352,7 +355,7 @@ static void read_entity(struct scanner *p)
 	}
 	entity_init(&d.e, kind);
 	read_fields(p, &d);
-	if (d.e.trims < d.e.trim.n)
+	if (kind == ENTITY_SURFACE && d.e.trims < d.e.trim.n)
 		d.e.trims = d.e.trim.n;
 	if (p->st == ST_OK)
 		scan_keep(p, model_add(p->m, &d.e));

@@ -1,6 +1,9 @@
 /* base_format.c - writer of the .base text format; docs/formats.md has its grammar. */
 #include "base.h"
 
+#include <stdio.h>
+#include <stdlib.h>
+
 #include "file.h"
 
 static void add_string(struct text *t, const char *s)
@@ -98,6 +101,21 @@ static void add_points(struct text *t, const struct point_list *l)
 	add_values(t, l->values, (size_t)l->n * l->dimension, l->dimension);
 }
 
+/* With the fewest digits that read back as the same float. */
+static void add_color(struct text *t, const float color[3])
+{
+	char digits[32];
+	text_add(t, "\tcolor");
+	for (int i = 0; i < 3; i++) {
+		int n = 6;
+		do
+			snprintf(digits, sizeof digits, "%.*g", n, (double)color[i]);
+		while (n++ < 9 && strtof(digits, NULL) != color[i]);
+		text_addf(t, " %s", digits);
+	}
+	text_add(t, "\n");
+}
+
 /* `surface`: place of the entity's surface in the file, from 1, 0 for none. */
 static void add_entity(struct text *t, const struct entity *e, bool used, int surface)
 {
@@ -110,12 +128,12 @@ static void add_entity(struct text *t, const struct entity *e, bool used, int su
 		text_addf(t, "\tsource %d\n", e->source_type);
 	if (e->trims)
 		text_addf(t, "\ttrims %d\n", e->trims);
-	for (int i = 0; i < e->n_faces; i++)
-		text_addf(t, "\tface %d\n", e->faces[i]);
+	for (int i = 0; e->kind == ENTITY_SURFACE && e->faces && i < e->faces->n; i++)
+		text_addf(t, "\tface %d\n", e->faces->de[i]);
 	if (used)
 		text_add(t, "\tused yes\n");
 	if (e->has_color)
-		add_numbers(t, "color", e->color, 3, 0);
+		add_color(t, e->color);
 	add_attributes(t, "\t", e->attributes, e->n_attributes);
 	if (e->kind == ENTITY_CURVE_ON_SURFACE)
 		text_addf(t, "\tsurface %d\n", surface);
@@ -127,7 +145,7 @@ static void add_entity(struct text *t, const struct entity *e, bool used, int su
 	} else {
 		add_curve(t, &e->curve);
 	}
-	if (e->space.order) {
+	if (e->kind == ENTITY_CURVE_ON_SURFACE && e->space.order) {
 		text_add(t, "\tspace\n");
 		add_curve(t, &e->space);
 	}

@@ -23,16 +23,18 @@ static enum status copy_geometry(struct entity *out, const struct entity *e)
 {
 	enum status st = ST_OK;
 
+	if (e->kind == ENTITY_POINTS)
+		return copy_points(&out->points, &e->points);
+	if (e->kind == ENTITY_SURFACE) {
+		st = surface_copy(&out->geometry, &e->geometry);
+		for (int k = 0; e->faces && k < e->faces->n && st == ST_OK; k++)
+			st = entity_add_face(out, e->faces->de[k]);
+		return st == ST_OK ? trim_copy(&out->trim, &e->trim) : st;
+	}
 	if (e->curve.order)
 		st = curve_copy(&out->curve, &e->curve);
 	if (st == ST_OK && e->space.order)
 		st = curve_copy(&out->space, &e->space);
-	if (st == ST_OK && e->kind == ENTITY_SURFACE)
-		st = surface_copy(&out->geometry, &e->geometry);
-	if (st == ST_OK)
-		st = trim_copy(&out->trim, &e->trim);
-	if (st == ST_OK)
-		st = copy_points(&out->points, &e->points);
 	return st;
 }
 
@@ -50,8 +52,6 @@ enum status entity_copy(struct entity *out, const struct entity *e)
 	memcpy(out->color, e->color, sizeof out->color);
 	out->surface = e->surface;
 	st = model_set_text(&out->name, e->name);
-	for (int k = 0; k < e->n_faces && st == ST_OK; k++)
-		st = entity_add_face(out, e->faces[k]);
 	for (int k = 0; k < e->n_attributes && st == ST_OK; k++)
 		st = entity_set_attribute(out, e->attributes[k].name, e->attributes[k].value);
 	if (st == ST_OK)

@@ -145,7 +145,7 @@ static void set_color(struct entity *e, const struct g2_header *h)
 		return;
 	e->has_color = true;
 	for (int k = 0; k < 3; k++)
-		e->color[k] = fmin(fmax(h->auxiliary[k] / 255.0, 0), 1);
+		e->color[k] = (float)fmin(fmax(h->auxiliary[k] / 255.0, 0), 1);
 }
 
 /* Points of `dimension` coordinates (and weight) to homogeneous ones; a plane's have z = 0. */

@@ -7,8 +7,8 @@ static void add_header(struct text *t, int class, const struct entity *e)
 {
 	text_addf(t, "%d 1 0 ", class);
 	if (e->has_color)
-		text_addf(t, "4 %.0f %.0f %.0f 255\n", 255 * e->color[0], 255 * e->color[1],
-		          255 * e->color[2]);
+		text_addf(t, "4 %.0f %.0f %.0f 255\n", 255.0 * e->color[0], 255.0 * e->color[1],
+		          255.0 * e->color[2]);
 	else
 		text_add(t, "0\n");
 }
@@ -113,7 +113,7 @@ enum status g2_write(const struct model *m, const char *path, const struct repor
 	struct text t = { 0 };
 	int trimmed = 0;
 	for (int i = 0; i < m->n; i++)
-		trimmed += m->entities[i].trim.n > 0;
+		trimmed += m->entities[i].kind == ENTITY_SURFACE && m->entities[i].trim.n > 0;
 	if (trimmed)
 		report_warning(r, "'%s' holds %d trimmed %s whole: trims are not written to .g2",
 		               path, trimmed, trimmed == 1 ? "surface" : "surfaces");

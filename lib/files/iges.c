@@ -157,7 +157,7 @@ static enum pass pass_of(const struct iges_entry *e)
 static enum status read_next(struct iges *g, enum pass pass, int de)
 {
 	const struct iges_entry *e = iges_entry(g, de);
-	if (pass_of(e) != pass)
+	if (!e || pass_of(e) != pass)
 		return ST_OK;
 	if (pass == CURVES_ON_SURFACES)
 		return read_curve_on_surface(g, de);
@@ -183,6 +183,7 @@ static enum status read_entities(struct iges *g)
 	for (enum pass pass = 0; pass < N_PASSES && st == ST_OK; pass++) {
 		for (int i = 0; i < g->n_entries && st == ST_OK; i++) {
 			st = read_next(g, pass, 2 * i + 1);
+			iges_leave_entries(g, i, pass >= POINTS);
 			if (st == ST_OK && (i & 0xff) == 0xff)
 				st = progress_step(g->progress,
 				                   g->n_p ? (double)g->far / g->n_p : 0);
@@ -274,9 +275,8 @@ static enum status parse(struct model *m, const struct iges_bytes *bytes, const 
 	if (st == ST_OK)
 		model_number(m);
 	text_finish(&g.global);
-	free(g.d_lines);
-	free(g.p_lines);
-	free(g.entries);
+	iges_finish_directory(&g);
+	iges_lines_finish(&g.p_lines);
 	free(g.first_lines);
 	free(g.uses);
 	free(g.matrices);

@@ -221,7 +221,7 @@ static enum status find_first_lines(struct iges *g)
 		return ST_RESOURCE;
 	for (int i = g->n_p - 1; i >= 0; i--) {
 		int de = iges_back_pointer(g, i);
-		if (de % 2 == 1 && iges_entry(g, de))
+		if (de % 2 == 1 && de / 2 < g->n_entries)
 			g->first_lines[de / 2] = i + 1;
 	}
 	return ST_OK;

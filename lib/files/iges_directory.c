@@ -12,8 +12,8 @@ enum { FIELD = 8 };
 /* Field k (0 .. 8) of a line as text of 8 columns; short lines read as blanks. */
 static void field_text(struct iges *g, int line, int k, char out[FIELD + 1])
 {
-	size_t got;
-	const char *s = iges_bytes_at(&g->bytes, g->d_lines[line] + (size_t)k * FIELD, FIELD, &got);
+	size_t got, at = iges_lines_at(&g->d_lines, line) + (size_t)k * FIELD;
+	const char *s = iges_bytes_at(&g->bytes, at, FIELD, &got);
 	for (size_t i = 0; i < FIELD; i++) {
 		char c = i < got ? s[i] : ' ';
 		out[i] = c == '\t' || c == '\0' ? ' ' : c;
@@ -38,26 +38,51 @@ static bool field_blanked(struct iges *g, int line)
 	return text[1] == '1';
 }
 
-static void field_label(struct iges *g, int line, char out[FIELD + 1])
+static void field_label(struct iges *g, int line, char out[FIELD])
 {
 	char text[FIELD + 1];
 	field_text(g, line, 7, text);
 	size_t from = strspn(text, " "), to = FIELD;
 	while (to > from && text[to - 1] == ' ')
 		to--;
+	memset(out, 0, FIELD);
 	memcpy(out, text + from, to - from);
-	out[to - from] = '\0';
+}
+
+static enum status make_entries(struct iges *g)
+{
+	g->n_entries = g->n_d / 2;
+	size_t blocks = ((size_t)g->n_entries + ENTRIES_BLOCK - 1) / ENTRIES_BLOCK;
+	g->entries = calloc(blocks ? blocks : 1, sizeof *g->entries);
+	if (!g->entries)
+		return ST_RESOURCE;
+	for (size_t i = 0; i < blocks; i++) {
+		g->entries[i] = calloc(ENTRIES_BLOCK, sizeof **g->entries);
+		if (!g->entries[i])
+			return ST_RESOURCE;
+	}
+	return ST_OK;
+}
+
+static void want_helpers(struct iges *g, int i)
+{
+	const struct iges_entry *e = iges_entry(g, 2 * i + 1);
+	struct iges_entry *transform = iges_entry(g, e->transform),
+	                  *color = e->color < 0 ? iges_entry(g, abs(e->color)) : NULL;
+	if (transform)
+		transform->wanted = true;
+	if (color)
+		color->wanted = true;
 }
 
 enum status iges_read_directory(struct iges *g)
 {
-	g->n_entries = g->n_d / 2;
-	g->entries = calloc(g->n_entries ? (size_t)g->n_entries : 1, sizeof *g->entries);
-	if (!g->entries)
-		return ST_RESOURCE;
+	enum status st = make_entries(g);
+	if (st != ST_OK)
+		return st;
 	for (int i = 0; i < g->n_entries; i++) {
 		int a = 2 * i, b = 2 * i + 1;
-		struct iges_entry *e = &g->entries[i];
+		struct iges_entry *e = iges_entry(g, 2 * i + 1);
 		*e = (struct iges_entry){
 			.type = field_int(g, a, 0),
 			.data = field_int(g, a, 1),
@@ -75,6 +100,9 @@ enum status iges_read_directory(struct iges *g)
 		if (field_int(g, b, 0) != e->type)
 			iges_warn(g, WARN_SEQUENCE, 2 * i + 1);
 	}
+	for (int i = 0; i < g->n_entries; i++)
+		want_helpers(g, i);
+	iges_lines_finish(&g->d_lines);
 	if (g->n_d % 2)
 		return model_warn(g->m,
 		                  "the directory has an odd number of lines; the last is left out");
@@ -83,7 +111,38 @@ enum status iges_read_directory(struct iges *g)
 
 struct iges_entry *iges_entry(struct iges *g, int de)
 {
-	return de >= 1 && (de - 1) / 2 < g->n_entries ? &g->entries[(de - 1) / 2] : NULL;
+	int i = (de - 1) / 2;
+	if (de < 1 || i >= g->n_entries || !g->entries[i / ENTRIES_BLOCK])
+		return NULL;
+	return &g->entries[i / ENTRIES_BLOCK][i % ENTRIES_BLOCK];
+}
+
+/* Curves and points that stand for themselves; others may be looked at again. */
+static bool is_done_with(const struct iges_entry *e, bool points)
+{
+	return (iges_is_curve(e) || (points && iges_is_points(e))) && !e->used && !e->wanted &&
+	       e->uses < 0;
+}
+
+void iges_leave_entries(struct iges *g, int i, bool points)
+{
+	struct iges_entry **block = &g->entries[i / ENTRIES_BLOCK];
+	if (i % ENTRIES_BLOCK != ENTRIES_BLOCK - 1 || !*block)
+		return;
+	for (int k = 0; k < ENTRIES_BLOCK; k++)
+		if (!is_done_with(&(*block)[k], points))
+			return;
+	free(*block);
+	*block = NULL;
+}
+
+void iges_finish_directory(struct iges *g)
+{
+	size_t blocks = ((size_t)g->n_entries + ENTRIES_BLOCK - 1) / ENTRIES_BLOCK;
+	for (size_t i = 0; g->entries && i < blocks; i++)
+		free(g->entries[i]);
+	free(g->entries);
+	iges_lines_finish(&g->d_lines);
 }
 
 void iges_warn(struct iges *g, enum iges_warning w, int de)

@@ -197,12 +197,26 @@ void iges_end(struct iges_writer *w, int type, int color, int name, const char *
 	iges_end_form(w, type, 0, color, name, status);
 }
 
+/* The part as a number of percent with the fewest digits that read back as the same float. */
+static double percent(float part)
+{
+	char digits[32];
+	double x = 100.0 * part;
+	for (int n = 6; n <= 9; n++) {
+		snprintf(digits, sizeof digits, "%.*g", n, 100.0 * part);
+		x = strtod(digits, NULL);
+		if ((float)(x / 100) == part)
+			break;
+	}
+	return x;
+}
+
 /* Helper entities, written before those that point to them. */
-static int put_color(struct iges_writer *w, const double color[3])
+static int put_color(struct iges_writer *w, const float color[3])
 {
 	int de = iges_begin(w, 314);
 	for (int i = 0; i < 3; i++)
-		put_real(w, 100 * color[i], i < 2 ? ',' : ';');
+		put_real(w, percent(color[i]), i < 2 ? ',' : ';');
 	end_line(w);
 	put_entry(w, 314, 0, w->n_p - w->from, 0, "00000200");
 	return de;
@@ -314,6 +328,8 @@ static double largest_coordinate(const struct model *m)
 	for (int i = 0; i < m->n; i++) {
 		const struct entity *e = &m->entities[i];
 		const struct curve *c = curve_of(e);
+		if (!c && e->kind != ENTITY_SURFACE)
+			continue;
 		const double *p = c ? c->points : e->geometry.points;
 		size_t n = c ? (size_t)c->n : (size_t)e->geometry.n[0] * e->geometry.n[1];
 		for (size_t k = 0; k < 4 * n; k++)

@@ -53,7 +53,7 @@ enum status iges_find_groups(struct iges *g)
 	enum status st = ST_OK;
 	g->quiet = true;
 	for (int i = 0; i < g->n_entries && st == ST_OK; i++)
-		if (iges_is_group(&g->entries[i])) {
+		if (iges_is_group(iges_entry(g, 2 * i + 1))) {
 			g->at = 2 * i + 1;
 			st = find_group(g, g->at);
 		}

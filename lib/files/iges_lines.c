@@ -108,24 +108,63 @@ bool iges_recognise(const char *bytes, size_t n)
 	return is_first_line(&l);
 }
 
-/* Append an offset to an array that doubles. */
-static bool add_offset(size_t **p, int *n, size_t offset)
+/* A line that does not go on with the last run begins one. */
+static bool add_line_at(struct iges_lines *l, size_t at)
 {
-	if (*n == INT_MAX)
+	struct line_run *r = l->n_runs ? &l->runs[l->n_runs - 1] : NULL;
+	if (l->n == INT_MAX)
 		return false;
-	if ((*n & (*n - 1)) == 0) {
-		size_t *q = reallocarray(*p, *n ? (size_t)*n * 2 : 1, sizeof *q);
-		if (!q)
-			return false;
-		*p = q;
+	if (r && l->n - r->first == 1 && at - r->at <= UINT_MAX)
+		r->stride = (unsigned)(at - r->at);
+	else if (!r || at - r->at != (size_t)r->stride * (size_t)(l->n - r->first)) {
+		if ((l->n_runs & (l->n_runs - 1)) == 0) {
+			r = reallocarray(l->runs, l->n_runs ? (size_t)l->n_runs * 2 : 1, sizeof *r);
+			if (!r)
+				return false;
+			l->runs = r;
+		}
+		l->runs[l->n_runs++] = (struct line_run){ at, l->n, 0 };
 	}
-	(*p)[(*n)++] = offset;
+	l->n++;
 	return true;
+}
+
+/* The last run that begins at or before line i. */
+static int find_run(const struct iges_lines *l, int i)
+{
+	int lo = 0, hi = l->n_runs - 1;
+	while (lo < hi) {
+		int middle = lo + (hi - lo + 1) / 2;
+		if (l->runs[middle].first <= i)
+			lo = middle;
+		else
+			hi = middle - 1;
+	}
+	return lo;
+}
+
+static bool is_in_run(const struct iges_lines *l, int run, int i)
+{
+	return run < l->n_runs && l->runs[run].first <= i &&
+	       (run + 1 == l->n_runs || i < l->runs[run + 1].first);
+}
+
+size_t iges_lines_at(struct iges_lines *l, int i)
+{
+	if (!is_in_run(l, l->last, i))
+		l->last = is_in_run(l, l->last + 1, i) ? l->last + 1 : find_run(l, i);
+	const struct line_run *r = &l->runs[l->last];
+	return r->at + (size_t)r->stride * (size_t)(i - r->first);
+}
+
+void iges_lines_finish(struct iges_lines *l)
+{
+	free(l->runs);
+	*l = (struct iges_lines){ 0 };
 }
 
 static enum status add_line(struct iges *g, const struct line *l)
 {
-	size_t offset = l->at;
 	bool good = true;
 	switch (l->letter) {
 	case 'C':
@@ -143,10 +182,10 @@ static enum status add_line(struct iges *g, const struct line *l)
 		good = !g->global.failed;
 		break;
 	case 'D':
-		good = add_offset(&g->d_lines, &g->n_d, offset);
+		good = add_line_at(&g->d_lines, l->at);
 		break;
 	case 'P':
-		good = add_offset(&g->p_lines, &g->n_p, offset);
+		good = add_line_at(&g->p_lines, l->at);
 		g->odd_lines |= l->data != LETTER_COLUMN;
 		break;
 	case 'T':
@@ -172,6 +211,8 @@ enum status iges_index(struct iges *g)
 			return st;
 		ended = l.letter == 'T';
 	}
+	g->n_d = g->d_lines.n;
+	g->n_p = g->p_lines.n;
 	if (!ended)
 		return report_error(
 		        g->r, ST_INPUT,
@@ -183,7 +224,7 @@ enum status iges_index(struct iges *g)
 
 int iges_line(struct iges *g, int i, char out[DATA_MOST])
 {
-	size_t at = g->p_lines[i], n = DATA_COLUMNS, got;
+	size_t at = iges_lines_at(&g->p_lines, i), n = DATA_COLUMNS, got;
 	if (g->odd_lines) {
 		struct line l = { 0 };
 		size_t next = at;
@@ -200,10 +241,10 @@ int iges_line(struct iges *g, int i, char out[DATA_MOST])
 
 int iges_back_pointer(struct iges *g, int i)
 {
-	size_t at = g->p_lines[i] + DATA_COLUMNS, got;
+	size_t begin = iges_lines_at(&g->p_lines, i), at = begin + DATA_COLUMNS, got;
 	if (g->odd_lines) {
 		struct line l = { 0 };
-		size_t next = g->p_lines[i];
+		size_t next = begin;
 		next_line(g, &next, &l);
 		at = l.at + (l.data > HEADER_COLUMNS - DATA_COLUMNS
 		                     ? l.data - (HEADER_COLUMNS - DATA_COLUMNS)

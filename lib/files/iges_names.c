@@ -50,7 +50,8 @@ static enum status set_label(const struct iges_entry *e, struct entity *out)
 {
 	if (!e->label[0])
 		return ST_OK;
-	out->name = e->subscript ? text_print("%s.%d", e->label, e->subscript) : strdup(e->label);
+	out->name = e->subscript ? text_print("%.8s.%d", e->label, e->subscript)
+	                         : strndup(e->label, sizeof e->label);
 	return out->name ? ST_OK : ST_RESOURCE;
 }
 
@@ -58,7 +59,7 @@ static enum status set_label(const struct iges_entry *e, struct entity *out)
 enum status iges_color(struct iges *g, int de, struct entity *out)
 {
 	const struct iges_entry *e = iges_entry(g, de);
-	static const double standard[9][3] = {
+	static const float standard[9][3] = {
 		[1] = { 0, 0, 0 }, [2] = { 1, 0, 0 }, [3] = { 0, 1, 0 }, [4] = { 0, 0, 1 },
 		[5] = { 1, 1, 0 }, [6] = { 1, 0, 1 }, [7] = { 0, 1, 1 }, [8] = { 1, 1, 1 },
 	};
@@ -72,7 +73,7 @@ enum status iges_color(struct iges *g, int de, struct entity *out)
 	enum status st = iges_open(g, -e->color, 314, &c);
 	if (st == ST_OK) {
 		for (int i = 0; i < 3; i++)
-			out->color[i] = fmin(fmax(iges_real(&c) / 100, 0), 1);
+			out->color[i] = (float)fmin(fmax(iges_real(&c) / 100, 0), 1);
 		st = c.st;
 	}
 	out->has_color = st == ST_OK;

@@ -293,7 +293,7 @@ enum status iges_place(struct iges *g)
 	g->budget = g->copies = (int64_t)COPIES_A_LINE * g->n_p + COPIES_MORE;
 	for (int again = 0; again < 3; again++)
 		for (int i = 0; i < g->n_entries && st == ST_OK; i++) {
-			const struct iges_entry *e = &g->entries[i];
+			const struct iges_entry *e = iges_entry(g, 2 * i + 1);
 			g->at = 2 * i + 1;
 			bool due = again == 0 ? !e->used : again == 2 || !iges_is_face(e);
 			if (is_placed_by_itself(e) && !e->reached && due)
@@ -301,7 +301,8 @@ enum status iges_place(struct iges *g)
 		}
 	for (int i = 0; i < g->n_entries && st == ST_OK; i++) {
 		g->at = 2 * i + 1;
-		if (g->entries[i].type == 308 && !g->entries[i].reached)
+		const struct iges_entry *e = iges_entry(g, g->at);
+		if (e->type == 308 && !e->reached)
 			iges_warn(g, WARN_UNPLACED, g->at);
 	}
 	return st;

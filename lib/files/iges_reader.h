@@ -20,12 +20,24 @@ enum {
 	LINE_MOST = 4096,    /* bytes of a line that are looked at */
 	DATA_MOST = 256,     /* bytes of 64 columns, where characters take several */
 	NESTING_MAX = 16,    /* entities made of entities made of ... */
+	ENTRIES_BLOCK = 512,
 };
 
 struct iges_header {
 	char delimiter, record;
 	int unit_flag;
 	double resolution; /* smallest distance that matters to the author, 0: not said */
+};
+
+/* Where lines begin: lines of one length are one run, as nearly all files have them. */
+struct iges_lines {
+	struct line_run {
+		size_t at; /* of its first line, bytes */
+		int first; /* that line's place, from 0 */
+		unsigned stride;
+	} * runs;      /* owned */
+	int n_runs, n; /* lines in all */
+	int last;      /* the run last asked for */
 };
 
 /* A directory entry. Its number is 2 i + 1 for entry i. */
@@ -36,11 +48,12 @@ struct iges_entry {
 	int transform; /* directory entry of its 124, or 0 */
 	int color;     /* 1 .. 8, or minus the directory entry of a 314 */
 	int subscript;
-	char label[9];
+	char label[8]; /* filled up with zeros */
 	bool blanked;
 	bool used;         /* another entity is made of it */
 	bool pointed_even; /* by the number of its second line */
 	bool reached;      /* a face, shell, solid or instance that has been placed */
+	bool wanted;       /* named as transform or color */
 	char state;        /* of a definition, while it is looked for circles */
 	int uses;          /* last of its uses, in uses[], -1: none */
 	int group;         /* in group_names[], of which it is a member; -1: of none with a name */
@@ -93,16 +106,17 @@ struct iges_edges {
 
 struct iges {
 	struct iges_bytes bytes;
-	const char *name;          /* of the file, borrowed */
-	size_t stride;             /* bytes a line where no line ends are in the file, else 0 */
-	char line_end;             /* '\n' or '\r' */
-	bool odd_lines;            /* some P lines have their letter elsewhere than in column 73 */
-	struct text global;        /* G section */
-	size_t *d_lines, *p_lines; /* owned; offsets in bytes */
+	const char *name;   /* of the file, borrowed */
+	size_t stride;      /* bytes a line where no line ends are in the file, else 0 */
+	char line_end;      /* '\n' or '\r' */
+	bool odd_lines;     /* some P lines have their letter elsewhere than in column 73 */
+	struct text global; /* G section */
+	struct iges_lines d_lines, p_lines;
 	int n_d, n_p;
 	char terminate[HEADER_COLUMNS + 1]; /* T line; "" if there is none */
 	struct iges_header header;
-	struct iges_entry *entries; /* owned */
+	/* owned; ENTRIES_BLOCK in each, NULL: all have been read and nothing refers to them */
+	struct iges_entry **entries;
 	int n_entries;
 	int *first_lines; /* owned; by back pointer: first P line of each entry, from 1; or NULL */
 	struct iges_use *uses;     /* owned */
@@ -137,6 +151,9 @@ struct iges {
 
 /* iges_lines.c. Errors: ST_INPUT (compressed or binary form, no T line), ST_RESOURCE. */
 enum status iges_index(struct iges *g);
+void iges_lines_finish(struct iges_lines *l);
+/* Where line i (from 0) begins. */
+size_t iges_lines_at(struct iges_lines *l, int i);
 /* Data columns of P line i (from 0) into `out`; how many bytes. */
 int iges_line(struct iges *g, int i, char out[DATA_MOST]);
 /* The directory entry that P line i says it belongs to; 0 if it cannot be read. */
@@ -147,8 +164,12 @@ enum status iges_read_header(struct iges *g);
 
 /* iges_directory.c. Errors: ST_RESOURCE. */
 enum status iges_read_directory(struct iges *g);
-/* By the number of either of its lines; NULL where there is none. */
+/* By the number of either of its lines; NULL where there is none, or none any more. */
 struct iges_entry *iges_entry(struct iges *g, int de);
+/* Curves up to entry i (from 0) have been read, points too if it says so: give up the block that ends there
+ * if nothing refers to it. */
+void iges_leave_entries(struct iges *g, int i, bool points);
+void iges_finish_directory(struct iges *g);
 /* The number of the first line; that it was the second's is told. */
 int iges_mend_pointer(struct iges *g, int de);
 void iges_warn(struct iges *g, enum iges_warning w, int de);

@@ -325,9 +325,9 @@ enum status iges_find_uses(struct iges *g)
 {
 	g->quiet = true;
 	for (int i = 0; i < g->n_entries; i++) {
+		const struct iges_entry *e = iges_entry(g, 2 * i + 1);
 		size_t row = 0;
-		while (row < sizeof users / sizeof users[0] &&
-		       users[row].type != g->entries[i].type)
+		while (row < sizeof users / sizeof users[0] && users[row].type != e->type)
 			row++;
 		if (row == sizeof users / sizeof users[0])
 			continue;
@@ -335,9 +335,11 @@ enum status iges_find_uses(struct iges *g)
 		if (st != ST_OK)
 			return st;
 	}
-	for (int i = 0; i < g->n_entries; i++)
-		if (iges_is_group(&g->entries[i]) && g->entries[i].used)
+	for (int i = 0; i < g->n_entries; i++) {
+		const struct iges_entry *e = iges_entry(g, 2 * i + 1);
+		if (iges_is_group(e) && e->used)
 			use_members(g, 2 * i + 1, 0);
+	}
 	g->quiet = false;
 	return ST_OK;
 }

@@ -38,12 +38,15 @@ static void attributes_finish(struct attribute *a, int n)
 	free(a);
 }
 
-static enum status attributes_set(struct attribute **a, int *n, const char *name, const char *value)
+/* *added: there is one more than the n before. */
+static enum status attributes_set(struct attribute **a, int n, const char *name, const char *value,
+                                  bool *added)
 {
-	for (int i = 0; i < *n; i++)
+	*added = false;
+	for (int i = 0; i < n; i++)
 		if (strcmp((*a)[i].name, name) == 0)
 			return model_set_text(&(*a)[i].value, value);
-	enum status st = array_grow((void **)a, *n, sizeof **a);
+	enum status st = n < ATTRIBUTES_MAX ? array_grow((void **)a, n, sizeof **a) : ST_RESOURCE;
 	if (st != ST_OK)
 		return st;
 	struct attribute fresh = { strdup(name), strdup(value) };
@@ -52,7 +55,8 @@ static enum status attributes_set(struct attribute **a, int *n, const char *name
 		free(fresh.value);
 		return ST_RESOURCE;
 	}
-	(*a)[(*n)++] = fresh;
+	(*a)[n] = fresh;
+	*added = true;
 	return ST_OK;
 }
 
@@ -74,19 +78,33 @@ void entity_finish(struct entity *e)
 	if (!e)
 		return;
 	free(e->name);
-	free(e->faces);
-	curve_finish(&e->curve);
-	curve_finish(&e->space);
-	surface_finish(&e->geometry);
-	trim_finish(&e->trim);
-	free(e->points.values);
+	switch (e->kind) {
+	case ENTITY_CURVE:
+	case ENTITY_CURVE_ON_SURFACE:
+		curve_finish(&e->curve);
+		curve_finish(&e->space);
+		break;
+	case ENTITY_SURFACE:
+		surface_finish(&e->geometry);
+		trim_finish(&e->trim);
+		free(e->faces);
+		break;
+	case ENTITY_POINTS:
+		free(e->points.values);
+		break;
+	case N_ENTITY_KINDS:
+		break;
+	}
 	attributes_finish(e->attributes, e->n_attributes);
 	entity_init(e, e->kind);
 }
 
 enum status entity_set_attribute(struct entity *e, const char *name, const char *value)
 {
-	return attributes_set(&e->attributes, &e->n_attributes, name, value);
+	bool added;
+	enum status st = attributes_set(&e->attributes, e->n_attributes, name, value, &added);
+	e->n_attributes += added;
+	return st;
 }
 
 const char *entity_get_attribute(const struct entity *e, const char *name)
@@ -96,10 +114,19 @@ const char *entity_get_attribute(const struct entity *e, const char *name)
 
 enum status entity_add_face(struct entity *e, int de)
 {
-	enum status st = array_grow((void **)&e->faces, e->n_faces, sizeof *e->faces);
-	if (st == ST_OK)
-		e->faces[e->n_faces++] = de;
-	return st;
+	if (e->kind != ENTITY_SURFACE)
+		return ST_INTERNAL;
+	const int n = e->faces ? e->faces->n : 0;
+	if ((n & (n - 1)) == 0) {
+		const size_t room = n ? (size_t)n * 2 : 1;
+		struct face_list *more = realloc(e->faces, sizeof *more + room * sizeof *more->de);
+		if (!more)
+			return ST_RESOURCE;
+		e->faces = more;
+	}
+	e->faces->de[n] = de;
+	e->faces->n = n + 1;
+	return ST_OK;
 }
 
 const char *entity_kind_name(enum entity_kind kind)
@@ -229,7 +256,10 @@ enum status model_warn(struct model *m, const char *format, ...)
 
 enum status model_set_attribute(struct model *m, const char *name, const char *value)
 {
-	return attributes_set(&m->attributes, &m->n_attributes, name, value);
+	bool added;
+	enum status st = attributes_set(&m->attributes, m->n_attributes, name, value, &added);
+	m->n_attributes += added;
+	return st;
 }
 
 const char *model_get_attribute(const struct model *m, const char *name)

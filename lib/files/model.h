@@ -30,26 +30,41 @@ struct attribute {
 	char *name, *value; /* owned */
 };
 
+/* Directory Entry numbers of the trimmed faces that lie on a surface. */
+struct face_list {
+	int n;
+	int de[];
+};
+
+enum { SOURCE_TYPE_MAX = 1023, ATTRIBUTES_MAX = 65535 };
+
+/* Files have hundreds of thousands of lines and points, so it is kept small: what only one kind has
+ * shares its room with what others have. Look at the kind before you look at these. */
 struct entity {
-	enum entity_kind kind;
-	int number;      /* 1, 2, ... as `batten info` counts; 0: used by another entity only */
-	bool used;       /* a curve or point that another entity is made of or trimmed by */
-	char *name;      /* owned; label of the file, or NULL */
-	int de;          /* IGES Directory Entry number, 0 if none */
-	int source_type; /* IGES entity type it was made from, 0 if none */
-	int trims;       /* trimming loops that the file gives it, read or not */
-	int *faces;      /* owned; Directory Entry numbers of the trimmed faces that lie on it */
-	int n_faces;
-	bool has_color;
-	double color[3];    /* sRGB 0 .. 1 */
-	int surface;        /* of a curve on surface: index of its surface in the model, or -1 */
-	struct curve curve; /* ENTITY_CURVE; ENTITY_CURVE_ON_SURFACE: in u, v */
-	struct curve space; /* ENTITY_CURVE_ON_SURFACE: the same curve in space; order 0: none */
-	struct surface geometry;      /* ENTITY_SURFACE */
-	struct trim trim;             /* ENTITY_SURFACE: what is left of it; zeroed: all */
-	struct point_list points;     /* ENTITY_POINTS */
+	enum entity_kind kind : 4;
+	bool used : 1; /* a curve or point that another entity is made of or trimmed by */
+	bool has_color : 1;
+	unsigned source_type : 10; /* IGES entity type it was made from, 0 if none */
+	unsigned short n_attributes;
+	float color[3]; /* sRGB 0 .. 1 */
+	int number;     /* 1, 2, ... as `batten info` counts; 0: used by another entity only */
+	int de;         /* IGES Directory Entry number, 0 if none */
+	int trims;      /* trimming loops that the file gives it, read or not */
+	int surface;    /* of a curve on surface: index of its surface in the model, or -1 */
+	char *name;     /* owned; label of the file, or NULL */
 	struct attribute *attributes; /* owned; what is known of it: angle, closed, length, ... */
-	int n_attributes;
+	union {
+		struct { /* ENTITY_CURVE; ENTITY_CURVE_ON_SURFACE: in u, v and in space */
+			struct curve curve;
+			struct curve space; /* order 0: none */
+		};
+		struct { /* ENTITY_SURFACE */
+			struct surface geometry;
+			struct trim trim;        /* what is left of it; zeroed: all */
+			struct face_list *faces; /* owned; NULL: none */
+		};
+		struct point_list points; /* ENTITY_POINTS */
+	};
 };
 
 /* An empty entity of that kind; finish takes back all it owns (a zeroed one is fine). */
@@ -62,6 +77,7 @@ enum status entity_copy(struct entity *out, const struct entity *e);
 /* Set or replace. Errors: ST_RESOURCE. */
 enum status entity_set_attribute(struct entity *e, const char *name, const char *value);
 const char *entity_get_attribute(const struct entity *e, const char *name); /* NULL if none */
+/* Errors: ST_RESOURCE, ST_INTERNAL (no surface). */
 enum status entity_add_face(struct entity *e, int de);
 
 const char *entity_kind_name(enum entity_kind kind); /* "curve", "surface", ... */

@@ -110,6 +110,16 @@ static struct entity *find_number(const struct model *m, int64_t number)
 	return NULL;
 }
 
+/* Does the face of that number lie on it? */
+static bool lies_on(const struct entity *e, int64_t de)
+{
+	const struct face_list *l = e->kind == ENTITY_SURFACE ? e->faces : NULL;
+	for (int k = 0; l && k < l->n; k++)
+		if (l->de[k] == de)
+			return true;
+	return false;
+}
+
 static struct entity *find_de(const struct model *m, int64_t de)
 {
 	if (de < 1)
@@ -118,9 +128,8 @@ static struct entity *find_de(const struct model *m, int64_t de)
 		if (m->entities[i].de == de)
 			return &m->entities[i];
 	for (int i = 0; i < m->n; i++)
-		for (int k = 0; k < m->entities[i].n_faces; k++)
-			if (m->entities[i].faces[k] == de)
-				return &m->entities[i];
+		if (lies_on(&m->entities[i], de))
+			return &m->entities[i];
 	return NULL;
 }
 

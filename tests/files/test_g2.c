@@ -35,7 +35,7 @@ static void a_surface_is_read(void **state)
 	const struct entity *e = &m.entities[0];
 	assert_int_equal(e->kind, ENTITY_SURFACE);
 	assert_int_equal(e->number, 1);
-	assert_true(e->has_color && e->color[0] == 1 && e->color[1] == 0 && e->color[2] == 0.2);
+	assert_true(e->has_color && e->color[0] == 1 && e->color[1] == 0 && e->color[2] == 0.2f);
 	assert_int_equal(e->geometry.n[0], 3);
 	assert_int_equal(e->geometry.order[1], 2);
 	assert_true(e->geometry.domain[1][1] == 2 && !e->geometry.rational);
@@ -234,7 +234,7 @@ static void written_is_read_to_the_bit(void **state)
 	entity_init(&e, ENTITY_SURFACE);
 	assert_int_equal(make_torus(&e.geometry, vec3(0.1, -1.0 / 3, 7), 3, 1.7), ST_OK);
 	e.has_color = true;
-	e.color[1] = 0.4;
+	e.color[1] = 0.4f;
 	assert_int_equal(model_add(&m, &e), ST_OK);
 	entity_init(&e, ENTITY_CURVE);
 	assert_int_equal(
@@ -245,7 +245,7 @@ static void written_is_read_to_the_bit(void **state)
 	assert_int_equal(parse(&again, t.s, t.n, &store), ST_OK);
 	assert_int_equal(again.n, 2);
 	same_surface(&m.entities[0].geometry, &again.entities[0].geometry);
-	assert_true(again.entities[0].color[1] == 0.4);
+	assert_true(again.entities[0].color[1] == 0.4f);
 	assert_memory_equal(m.entities[1].curve.points, again.entities[1].curve.points,
 	                    sizeof(double) * 4 * m.entities[1].curve.n);
 	g2_format(&again, &second);

@@ -315,7 +315,7 @@ static void read_face(struct model *m, size_t row)
 static const struct entity *trimmed(const struct model *m, size_t row)
 {
 	for (int i = 0; i < m->n; i++)
-		if (m->entities[i].trim.n)
+		if (m->entities[i].kind == ENTITY_SURFACE && m->entities[i].trim.n)
 			return &m->entities[i];
 	fail_msg("row %zu: no trims: %s", row,
 	         m->n_skipped ? m->skipped[0].reason : "nothing skipped");
@@ -350,8 +350,8 @@ static void faces_become_trims(void **state)
 		const double(*d)[2] = e->geometry.domain;
 		assert_int_equal(e->number, 1);
 		assert_int_equal(e->de, 3);
-		assert_int_equal(e->n_faces, 1);
-		assert_int_equal(e->faces[0], 1);
+		assert_int_equal(e->faces->n, 1);
+		assert_int_equal(e->faces->de[0], 1);
 		assert_point(i,
 		             surface_point(&e->geometry, 0.5 * (d[0][0] + d[0][1]),
 		                           0.5 * (d[1][0] + d[1][1])),
@@ -395,7 +395,7 @@ static double total_area(const struct model *m)
 {
 	double sum = 0, area, error;
 	for (int i = 0; i < m->n; i++)
-		if (m->entities[i].trim.n) {
+		if (m->entities[i].kind == ENTITY_SURFACE && m->entities[i].trim.n) {
 			assert_int_equal(trim_area(&m->entities[i].trim, &m->entities[i].geometry,
 			                           1e-8, &area, &error),
 			                 ST_OK);

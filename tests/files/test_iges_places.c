@@ -34,7 +34,7 @@ static void shared_surfaces_keep_every_trim(void **state)
 	struct entity *e;
 	(void)state;
 	assert_int_equal(read_made(&m, &f, entities, &store), ST_OK);
-	assert_int_equal(m.entities[0].n_faces, 2);
+	assert_int_equal(m.entities[0].faces->n, 2);
 	assert_area(&m.entities[0], DISK_L);
 	assert_int_equal(model_find(&m, "D5", &e, NULL), ST_OK);
 	assert_int_equal(e->number, 3);

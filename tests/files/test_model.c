@@ -30,6 +30,22 @@ static void add_line(struct model *m, const char *name, int de, bool used)
 	assert_null(e.curve.knots);
 }
 
+static void add_plane(struct model *m, int de, int face)
+{
+	struct entity e;
+	entity_init(&e, ENTITY_SURFACE);
+	assert_int_equal(surface_init(&e.geometry, (int[]){ 2, 2 }, (int[]){ 2, 2 }), ST_OK);
+	for (int i = 0; i < 4; i++) {
+		e.geometry.knots[0][i] = e.geometry.knots[1][i] = i / 2;
+		surface_set_point(&e.geometry, i / 2, i % 2, vec3(i / 2, i % 2, 0), 1);
+	}
+	assert_int_equal(surface_check(&e.geometry, "plane", NULL), ST_OK);
+	e.de = de;
+	assert_int_equal(entity_add_face(&e, face), ST_OK);
+	assert_int_equal(model_add(m, &e), ST_OK);
+	assert_null(e.faces);
+}
+
 static void make_model(struct model *m)
 {
 	model_init(m);
@@ -37,8 +53,8 @@ static void make_model(struct model *m)
 	add_line(m, "part", 3, true);
 	add_line(m, "twin", 5, false);
 	add_line(m, "twin", 7, false);
-	add_line(m, NULL, 9, false);
-	assert_int_equal(entity_add_face(&m->entities[4], 21), ST_OK);
+	add_plane(m, 9, 21);
+	assert_int_equal(entity_add_face(&m->entities[0], 21), ST_INTERNAL);
 	assert_int_equal(model_set_text(&m->file, "a.igs"), ST_OK);
 	model_number(m);
 }
@@ -131,8 +147,8 @@ static void boxes(void **state)
 	double values[] = { 1, 5, -2, 7 };
 	(void)state;
 	make_model(&m);
-	assert_int_equal(entity_box(&m.entities[4], &b), ST_OK);
-	assert_true(fabs(b.hi.x - 9) < 1e-8 && fabs(b.lo.x) < 1e-8 && fabs(b.hi.z - 3) < 1e-8);
+	assert_int_equal(entity_box(&m.entities[3], &b), ST_OK);
+	assert_true(fabs(b.hi.x - 7) < 1e-8 && fabs(b.lo.x) < 1e-8 && fabs(b.hi.z - 3) < 1e-8);
 	entity_init(&e, ENTITY_POINTS);
 	e.points = (struct point_list){ .n = 2, .dimension = 2, .values = values };
 	assert_int_equal(entity_box(&e, &b), ST_OK);
