@@ -58,6 +58,8 @@ static void surface_destroy(struct level_surface *s)
 	free(s->root);
 	free(s->shapes);
 	free(s->binomial);
+	free(s->heights);
+	free(s->height_range);
 	free(s);
 }
 
@@ -240,6 +242,8 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 		st = curvature_prepare(s, field->quantity);
 	if (st == ST_OK)
 		st = forms_prepare(s, tolerance);
+	if (st == ST_OK && s->kind == LEVEL_PLANE)
+		st = level_plane_prepare(s);
 	if (st == ST_OK)
 		st = edges_create(s);
 	if (st == ST_OK)
@@ -284,6 +288,8 @@ static enum status level_set(struct level *l, const struct level_field *field, d
 		               shape->point[l->value != 0] * (s->net.order[d] - 1);
 		l->side_degree[d] = l->degree[d] / 2;
 	}
+	if (field->kind == LEVEL_PLANE)
+		level_plane_bound(l);
 	if (field->kind == LEVEL_CURVATURE) {
 		level_curvature_degree(l);
 		l->side = s->quantity == QUANTITY_KMAX || s->quantity == QUANTITY_KMIN;

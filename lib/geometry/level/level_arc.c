@@ -10,22 +10,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000 };
+enum { FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000, PARTS_MAX = 8 };
 
-/* The error goes with the fifth power of the length; a piece whose error should be HOPELESS times the
- * tolerance is halved untried. */
-#define HALVING_GAIN 32.0
-#define HOPELESS     3.0
+/* The error goes with the fifth power of the length; parts are made for one so much larger. */
+#define ERROR_ORDER  5
+#define ERROR_MARGIN 1.8
 
 /* A box about a piece is worth looking at below this part of the area, and worth its bounds below that part of
  * those before. */
 #define NEAR_SHARE 0.25
 #define NEAR_GAIN  0.5
 
-struct station {
-	double uv[2], duv[2]; /* unit speed in space */
-	double p[3], dp[3];
-};
+/* .. where the piece uses no more of the tolerances. */
+#define NEAR_USED 1.0
 
 struct follower {
 	struct tracer *t;
@@ -99,127 +96,19 @@ static void station_find(const struct follower *w, double uv[2], struct station 
 	station_set(w, &x, uv[0], uv[1], out);
 }
 
-/* The curve near a point: its direction, of any length, and one over that length's square. */
-struct direction {
-	double t[3], per_square;
-};
-
-/*
- * What the exact curve is off from x, at right angles to it: to first order the nearest point of
- * the curve is x.p + shift, reached by moving u,v by `duv`. Returns the distance, squared.
- */
-static double nearest(const struct field_point *x, struct direction *along, double shift[3],
-                      double duv[2])
-{
-	double *t = along->t;
-	for (int d = 0; d < 3; d++)
-		t[d] = x->fu * x->sv[d] - x->fv * x->su[d];
-	along->per_square = 1 / (dot(t, t) + 1e-300);
-	double f = x->f * along->per_square;
-	duv[0] = -f * dot(x->sv, t);
-	duv[1] = f * dot(x->su, t);
-	for (int d = 0; d < 3; d++)
-		shift[d] = x->su[d] * duv[0] + x->sv[d] * duv[1];
-	return dot(shift, shift);
-}
-
-/* r without its part along the direction; returns what is left, squared. */
-static double across(double r[3], const struct direction *along)
-{
-	double a = dot(r, along->t) * along->per_square;
-	for (int d = 0; d < 3; d++)
-		r[d] -= a * along->t[d];
-	return dot(r, r);
-}
-
-/* Lengths of the tangents, in u,v and in space. */
-struct lengths {
-	double uv, space;
-};
-
-static void middle_set(const struct field_point *x, const struct direction *along,
-                       const double uv[2], struct proof_middle *mid)
-{
-	double step[3];
-	mid->across[0] = dot(x->sv, along->t) * along->per_square;
-	mid->across[1] = -dot(x->su, along->t) * along->per_square;
-	for (int d = 0; d < 3; d++)
-		step[d] = x->su[d] * mid->across[0] + x->sv[d] * mid->across[1];
-	mid->step = sqrt(dot(step, step));
-	mid->uv[0] = uv[0];
-	mid->uv[1] = uv[1];
-}
-
-/* The parameters that make both curves run alike: at the ends by their speeds, in the middle by how
- * far one is ahead. */
-static void middle_match(const struct field_point *x, const struct direction *along,
-                         const struct station *a, const struct station *b, const struct lengths *l,
-                         struct proof_middle *mid)
-{
-	double off[2], duv[2], ahead = 0, speed = 0;
-	for (int d = 0; d < 2; d++) {
-		off[d] = 0.5 * (a->uv[d] + b->uv[d]) + l->uv * (a->duv[d] - b->duv[d]) / 8 -
-		         mid->uv[d];
-		duv[d] = 1.5 * (b->uv[d] - a->uv[d]) - l->uv * (a->duv[d] + b->duv[d]) / 4;
-	}
-	for (int d = 0; d < 3; d++) {
-		double p = 0.5 * (a->p[d] + b->p[d]) + l->space * (a->dp[d] - b->dp[d]) / 8;
-		double s = x->p[d] + x->su[d] * off[0] + x->sv[d] * off[1];
-		ahead += (p - s) * along->t[d];
-		speed += (x->su[d] * duv[0] + x->sv[d] * duv[1]) * along->t[d];
-	}
-	mid->first = l->space / l->uv - 1;
-	mid->second = speed != 0 ? 16 * ahead / speed : 0;
-}
-
-/*
- * Correct the lengths so that the middle lies on the curve. uv: in, the middle of the cubic with
- * the first lengths; out, moved onto the curve. Returns the error left, squared.
- */
-static double middle_fit(const struct follower *w, const struct station *a, const struct station *b,
-                         struct lengths *l, double uv[2], struct proof_middle *mid)
-{
-	struct field_point x;
-	struct direction along;
-	double shift[3], duv[2], bulge[3], off[3], normal_bulge[3];
-	level_field_at(w->t, uv[0], uv[1], &x);
-	nearest(&x, &along, shift, duv);
-	middle_set(&x, &along, uv, mid);
-	double fb = (x.fu * (a->duv[0] - b->duv[0]) + x.fv * (a->duv[1] - b->duv[1])) / 8;
-	double more = fb != 0 ? -x.f / fb : 0, length = l->space;
-	if (fabs(more) < 0.1 * length)
-		l->uv += more;
-	for (int d = 0; d < 3; d++) {
-		bulge[d] = (a->dp[d] - b->dp[d]) / 8;
-		normal_bulge[d] = bulge[d];
-		off[d] = x.p[d] + shift[d] - 0.5 * (a->p[d] + b->p[d]) - length * bulge[d];
-	}
-	double error = across(off, &along), b2 = across(normal_bulge, &along);
-	more = b2 > 0 ? dot(off, normal_bulge) / b2 : 0;
-	if (fabs(more) < 0.1 * length) {
-		l->space += more;
-		for (int d = 0; d < 3; d++)
-			off[d] -= more * normal_bulge[d];
-		error = dot(off, off);
-	}
-	middle_match(&x, &along, a, b, l, mid);
-	uv[0] += duv[0];
-	uv[1] += duv[1];
-	return error;
-}
-
-static void piece_set(const struct station *a, const struct station *b, const struct lengths *l,
+/* The piece with tangents of that length. */
+static void piece_set(const struct station *a, const struct station *b, double length,
                       struct piece *p)
 {
 	const struct station *s[2] = { a, b };
 	for (int e = 0; e < 2; e++) {
 		for (int d = 0; d < 2; d++) {
 			p->uv[e][d] = s[e]->uv[d];
-			p->duv[e][d] = l->uv * s[e]->duv[d];
+			p->duv[e][d] = length * s[e]->duv[d];
 		}
 		for (int d = 0; d < 3; d++) {
 			p->p[e][d] = s[e]->p[d];
-			p->dp[e][d] = l->space * s[e]->dp[d];
+			p->dp[e][d] = length * s[e]->dp[d];
 		}
 	}
 }
@@ -233,11 +122,6 @@ static void piece_add(const struct follower *w, const struct piece *p)
 		w->t->failed = true;
 }
 
-static bool inside_nearly(const double uv[2])
-{
-	return uv[0] > -0.1 && uv[0] < 1.1 && uv[1] > -0.1 && uv[1] < 1.1;
-}
-
 /* The point of the curve next to uv. */
 static void station_between(const struct follower *w, const struct station *a,
                             const struct station *b, const double uv[2], struct station *out)
@@ -248,13 +132,6 @@ static void station_between(const struct follower *w, const struct station *a,
 	if (!(share > 0.02 && share < 0.98))
 		at[w->along] = 0.5 * (from + to);
 	station_find(w, at, out);
-}
-
-/* Largest part of the tolerances that is used. */
-static double excess_of(const struct follower *w, const struct proof *p)
-{
-	const struct level *l = w->t->level;
-	return larger(p->space / l->tolerance, p->uv / l->tolerance_uv);
 }
 
 /* Good, or as good as rounding allows. */
@@ -279,13 +156,12 @@ static void tiny_prove(const struct follower *w, const struct station *a, const 
                        double size, struct proof *best)
 {
 	struct field_point at;
-	struct direction along;
-	struct proof_middle mid = { .first = 0 };
+	struct proof_middle mid = { .uv = { 0, 0 } };
 	struct proof proof;
-	double uv[2], shift[3], duv[2], size_uv = 0;
+	double size_uv = 0;
 	struct piece x = { .error = 0 };
 	for (int d = 0; d < 2; d++) {
-		uv[d] = 0.5 * (a->uv[d] + b->uv[d]);
+		mid.uv[d] = 0.5 * (a->uv[d] + b->uv[d]);
 		size_uv = length2(size_uv, w->prover.width[d] * (b->uv[d] - a->uv[d]));
 		for (int e = 0; e < 2; e++) {
 			x.uv[e][d] = e ? b->uv[d] : a->uv[d];
@@ -297,9 +173,8 @@ static void tiny_prove(const struct follower *w, const struct station *a, const 
 			x.p[e][d] = e ? b->p[d] : a->p[d];
 			x.dp[e][d] = b->p[d] - a->p[d];
 		}
-	level_field_at(w->t, uv[0], uv[1], &at);
-	nearest(&at, &along, shift, duv);
-	middle_set(&at, &along, uv, &mid);
+	level_field_at(w->t, mid.uv[0], mid.uv[1], &at);
+	level_fit_middle(&at, &mid);
 	if (!level_prove(&w->prover, &x, &mid, &proof))
 		return;
 	proof.space += 3 * size;
@@ -315,7 +190,7 @@ static struct proof rough_proof(const struct follower *w, const struct station *
                                 const struct station *b, double size, double length)
 {
 	const struct prover *p = &w->prover;
-	const double reach = 1.1 * length / 3; /* lengths are corrected by a tenth at most */
+	const double reach = 1.15 * length / 3; /* lengths are corrected by no more */
 	double space = size + 3 * reach, extent[2];
 	for (int d = 0; d < 2; d++) {
 		double lo = smaller(a->uv[d], b->uv[d]), hi = larger(a->uv[d], b->uv[d]);
@@ -326,14 +201,15 @@ static struct proof rough_proof(const struct follower *w, const struct station *
 		extent[d] = hi - lo + reach * (fabs(a->duv[d]) + fabs(b->duv[d]));
 		space += p->shape->first[d] * extent[d];
 	}
-	return (struct proof){ smaller(2 * p->diameter, space),
-		               smaller(2 * p->diameter_uv,
-		                       length2(p->width[0] * extent[0], p->width[1] * extent[1])),
-		               { 0, 0 } };
+	return (struct proof){
+		.space = smaller(2 * p->diameter, space),
+		.uv = smaller(2 * p->diameter_uv,
+		              length2(p->width[0] * extent[0], p->width[1] * extent[1])),
+	};
 }
 
 static void fit(const struct follower *w, const struct station *a, const struct station *b,
-                int depth, double expected);
+                int depth);
 
 /*
  * Where f bends so much that nothing can be proved from bounds over the whole box, take those of a box about
@@ -376,19 +252,48 @@ static bool fit_nearer(const struct follower *w, const struct station *a, const 
 	level_prover_init(&inner.prover, w->t, &near, c, inner.error);
 	bool better = false;
 	for (int k = 0; k < 3; k++)
-		better |= inner.prover.second[k] < NEAR_GAIN * w->prover.second[k];
+		better |= inner.prover.spread[k] < NEAR_GAIN * w->prover.spread[k];
 	/* the curve between the stations need not be in the smaller box */
 	inner.prover.diameter = w->prover.diameter;
 	inner.prover.diameter_uv = w->prover.diameter_uv;
 	if (better)
-		fit(&inner, a, b, depth, 0);
+		fit(&inner, a, b, depth);
 	free(c);
 	return better;
 }
 
-/* expected: what part of the tolerances should be used, from that of a longer piece. */
+/* Places between the ends of a piece that is not good enough, and all parts between them. `middle`: a place next to
+ * the curve's middle. */
+static void fit_parts(const struct follower *w, const struct station *a, const struct station *b,
+                      const struct piece *x, const double middle[2], int parts, int depth)
+{
+	struct station s[PARTS_MAX + 1];
+	s[0] = *a;
+	for (int i = 1; i < parts; i++) {
+		double uv[2], t = (double)i / parts, r = 1 - t;
+		for (int d = 0; d < 2; d++)
+			uv[d] = parts == 2 ? middle[d]
+			                   : r * r * (1 + 2 * t) * x->uv[0][d] +
+			                             t * t * (1 + 2 * r) * x->uv[1][d] +
+			                             t * r * (r * x->duv[0][d] - t * x->duv[1][d]);
+		station_between(w, &s[i - 1], b, uv, &s[i]);
+	}
+	s[parts] = *b;
+	for (int i = 0; i < parts; i++)
+		fit(w, &s[i], &s[i + 1], depth + 1);
+}
+
+/* In how many parts to cut a piece that uses so much of the tolerances. */
+static int parts_of(double used)
+{
+	int n = 2;
+	while (n < PARTS_MAX && pow(n, ERROR_ORDER) < ERROR_MARGIN * used)
+		n++;
+	return n;
+}
+
 static void fit(const struct follower *w, const struct station *a, const struct station *b,
-                int depth, double expected)
+                int depth)
 {
 	double tolerance = w->t->level->tolerance, chord[3];
 	double uv[2] = { 0.5 * (a->uv[0] + b->uv[0]), 0.5 * (a->uv[1] + b->uv[1]) };
@@ -397,49 +302,32 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 	double size = sqrt(dot(chord, chord)), turn = dot(a->dp, b->dp);
 	/* a circle's arc of that chord and turn: chord / cos^2 (angle / 4) */
 	double first = size * 2 / (1 + sqrt(larger(0, (1 + turn) / 2)));
-	struct lengths l = { first, first };
 	struct proof_middle mid;
 	struct proof proof, best = rough_proof(w, a, b, size, first);
 	struct piece x;
-	double used = 0;
-	bool hopeless = expected > HOPELESS, proved = true;
-	if (!good(w, &best) && !hopeless && turn > 0.3 && dot(chord, a->dp) > 0) {
-		double middle[2];
-		for (int d = 0; d < 2; d++)
-			middle[d] =
-			        0.5 * (a->uv[d] + b->uv[d]) + first * (a->duv[d] - b->duv[d]) / 8;
-		if (inside_nearly(middle)) {
-			double off = middle_fit(w, a, b, &l, middle, &mid);
-			piece_set(a, b, &l, &x);
-			if (off < tolerance * tolerance) {
-				proved = level_prove(&w->prover, &x, &mid, &proof);
-				used = proved ? excess_of(w, &proof) : 0;
-				if (proved)
-					proof_improve(&best, &proof);
-			}
-			uv[0] = middle[0];
-			uv[1] = middle[1];
-		}
+	double off, used = 0;
+	piece_set(a, b, first, &x);
+	if (!good(w, &best) && turn > 0.3 && dot(chord, a->dp) > 0 &&
+	    level_fit(w->t, a, b, first, &x, &mid, uv, &off)) {
+		bool proved = level_prove(&w->prover, &x, &mid, &proof);
+		if (proved)
+			proof_improve(&best, &proof);
+		else if (proof.bent && proof.used < NEAR_USED && fit_nearer(w, a, b, &mid, depth))
+			return;
+		used = proof.used;
 	}
-	if (!proved && fit_nearer(w, a, b, &mid, depth))
-		return;
 	bool tiny = size < 1e-3 * tolerance;
 	if (tiny && !good(w, &best))
 		tiny_prove(w, a, b, size, &best);
 	bool enough = tiny || depth >= FIT_DEPTH_MAX ||
 	              (depth > FIT_DEPTH_EASY && w->t->pieces.n - w->first > PIECES_MAX);
 	if (good(w, &best) || enough || w->t->failed) {
-		piece_set(a, b, &l, &x);
 		x.error = best.space;
 		x.error_uv = best.uv;
 		piece_add(w, &x);
 		return;
 	}
-	struct station s;
-	station_between(w, a, b, uv, &s);
-	double next = (hopeless ? expected : used) / HALVING_GAIN;
-	fit(w, a, &s, depth + 1, next);
-	fit(w, &s, b, depth + 1, next);
+	fit_parts(w, a, b, &x, uv, parts_of(used), depth);
 }
 
 void level_arc_follow(struct tracer *t, const struct cell_range *box, const double *c, double error,
@@ -462,7 +350,7 @@ void level_arc_follow(struct tracer *t, const struct cell_range *box, const doub
 	w.c = c;
 	w.error = error;
 	level_prover_init(&w.prover, t, box, c, error);
-	fit(&w, &s[0], &s[1], 0, 0);
+	fit(&w, &s[0], &s[1], 0);
 	struct arc *arc = list_add(&t->arcs, sizeof *arc);
 	if (!arc) {
 		t->failed = true;

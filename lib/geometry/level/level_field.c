@@ -7,6 +7,7 @@
 #include "level_private.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct level_surface *surface_of(const struct tracer *t)
@@ -92,21 +93,54 @@ static bool silhouette_make(struct tracer *t, double *out)
 	return true;
 }
 
-static bool plane_make(struct tracer *t, double *out)
+enum status level_plane_prepare(struct level_surface *s)
 {
-	const struct level_surface *s = surface_of(t);
-	const double *n = t->level->direction;
-	for (size_t i = 0; i < t->n_field; i++) {
-		const double *p = t->points + 4 * i;
-		out[i] = n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + n[3] * p[3];
-	}
+	const size_t n = bezier_patch_size(&s->net) / 4;
+	const size_t patches = (size_t)s->net.spans[0] * s->net.spans[1];
+	const double *p = s->net.points, *d = s->frame[2];
+	s->heights = malloc(sizeof *s->heights * n * patches);
+	s->height_range = malloc(sizeof *s->height_range * patches);
+	if (!s->heights || !s->height_range)
+		return ST_RESOURCE;
+	for (size_t i = 0; i < n * patches; i++, p += 4)
+		s->heights[i] = d[0] * p[0] + d[1] * p[1] + d[2] * p[2];
+	for (size_t i = 0; i < patches; i++)
+		form_range(s->heights + n * i, n, &s->height_range[i][0], &s->height_range[i][1]);
+	return ST_OK;
+}
+
+void level_plane_bound(struct level *l)
+{
+	const struct level_surface *s = l->surface;
+	const double *n = l->direction;
 	/* the points' errors, the sum of four, and what making the direction a unit vector did */
 	double size = 0;
 	for (int d = 0; d < 3; d++)
 		size += fabs(n[d]) * s->extent[d];
-	t->bound.size = s->reach + fabs(n[3]) * s->of_weights.size;
-	t->bound.error = size * (s->of_points.error / (s->reach + 1e-300) + 12 * UNIT_ROUNDOFF) +
+	l->plane.size = s->reach + fabs(n[3]) * s->of_weights.size;
+	l->plane.error = size * (s->of_points.error / (s->reach + 1e-300) + 12 * UNIT_ROUNDOFF) +
 	                 fabs(n[3]) * (s->of_weights.error + 12 * UNIT_ROUNDOFF * s->weight);
+}
+
+bool level_plane_misses(const struct level *l, size_t patch)
+{
+	const struct level_surface *s = l->surface;
+	if (s->kind != LEVEL_PLANE || s->net.rational)
+		return false;
+	/* sums round to the same side: no coefficient of f is beyond these */
+	const double lo = s->height_range[patch][0] + l->direction[3];
+	const double hi = s->height_range[patch][1] + l->direction[3];
+	const double zero = larger(l->plane.error, ZERO_SHARE * l->plane.size);
+	return lo > zero || hi < -zero;
+}
+
+static bool plane_make(struct tracer *t, double *out)
+{
+	const struct level_surface *s = surface_of(t);
+	const double *heights = s->heights + t->n_field * t->patch, away = t->level->direction[3];
+	for (size_t i = 0; i < t->n_field; i++)
+		out[i] = heights[i] + away * t->points[4 * i + 3];
+	t->bound = t->level->plane;
 	return true;
 }
 

@@ -24,6 +24,17 @@ void form_scale(double *c, int m, int n, const double *binomial, bool back);
  * there are dropped, and raise the degree back. */
 void form_divide(double *c, int m, int n, int d, bool upper);
 
+/* The same for coefficients of four numbers each. */
+void form_scale4(double *c, int m, int n, const double *binomial, bool back);
+void form_divide4(double *c, int m, int n, int d, bool upper);
+
+/* out += a x b, of the first three numbers; the fourth stays. */
+void form_cross4(const double *a, int am, int an, const double *b, int bm, int bn, double *out);
+
+/* out += sign a w, w every fourth number of a form. */
+void form_weigh4(const double *a, int m, int n, const double *w, int wm, int wn, double sign,
+                 double *out);
+
 /* Halve in direction d: `lower` receives the lower half, c keeps the upper one. */
 void form_split(double *c, int m, int n, int d, double *lower);
 
@@ -57,7 +68,7 @@ double form_most(const double *c, size_t count);
 void form_evaluate(const double *c, int m, int n, double u, double v, double *f, double *fu,
                    double *fv);
 
-/* The same for coefficients of four numbers each. */
+/* .. of four numbers each. */
 void form_evaluate4(const double *c, int m, int n, double u, double v, double f[4], double fu[4],
                     double fv[4]);
 

@@ -9,25 +9,36 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Memory on the stack that serves patches of common degrees. Doubles. */
-enum { ROOM = 8192 };
+/* Memory on the stack that serves patches of common degrees, in doubles, and with few arcs. */
+enum { ROOM = 8192, LENT_PIECES = 64, LENT_ARCS = 16 };
 
 /* Between cells one of which stayed undecided, ends are paired that lie this near. */
 static const double near_on_line = 1e-7;
 
-void *list_add(struct list *l, size_t size)
+bool list_reserve(struct list *l, size_t more, size_t size)
 {
-	if (l->n == l->cap) {
-		size_t cap = l->cap ? 2 * l->cap : 64;
-		void *p = l->failed ? NULL : realloc(l->p, cap * size);
-		if (!p) {
-			l->failed = true;
-			return NULL;
-		}
-		l->p = p;
-		l->cap = cap;
+	if (l->cap - l->n >= more)
+		return true;
+	size_t cap = l->cap ? 2 * l->cap : 64;
+	cap = cap > l->n + more ? cap : l->n + more;
+	void *p = l->failed ? NULL : realloc(l->lent ? NULL : l->p, cap * size);
+	if (!p) {
+		l->failed = true;
+		return false;
 	}
-	return memset((char *)l->p + size * l->n++, 0, size);
+	if (l->lent)
+		memcpy(p, l->p, l->n * size);
+	l->lent = false;
+	l->p = p;
+	l->cap = cap;
+	return true;
+}
+
+void list_finish(struct list *l)
+{
+	if (!l->lent)
+		free(l->p);
+	*l = (struct list){ 0 };
 }
 
 static int end_compare(const void *x, const void *y)
@@ -126,21 +137,6 @@ void piece_reverse(struct piece *p)
 	}
 }
 
-/* Append the arc's pieces, backwards where it is entered at its end 1. */
-static void strand_add_arc(struct list *pieces, const struct tracer *t, int from)
-{
-	const struct arc *a = (const struct arc *)t->arcs.p + from / 2;
-	const struct piece *p = (const struct piece *)t->pieces.p + a->first;
-	for (int i = 0; i < a->n; i++) {
-		struct piece *out = list_add(pieces, sizeof *out);
-		if (!out)
-			return;
-		*out = p[from % 2 ? a->n - 1 - i : i];
-		if (from % 2)
-			piece_reverse(out);
-	}
-}
-
 static struct strand_end strand_end(const struct patch_links *k, int at)
 {
 	struct strand_end e = { .kind = STRAND_LOOSE };
@@ -153,24 +149,30 @@ static struct strand_end strand_end(const struct patch_links *k, int at)
 	return e;
 }
 
+/* The strands of a patch: `order` holds the ends by which their arcs are entered, one strand after another. */
+struct patch_strands {
+	struct strand *strand;
+	int *order, n, n_arcs, n_pieces;
+};
+
 /* The strand that begins with arc end `from`; `closed`: it comes back to it. */
 static void strand_add(const struct tracer *t, const struct patch_links *k, bool *done, int from,
-                       bool closed, struct list *strands, struct list *pieces)
+                       bool closed, struct patch_strands *out)
 {
-	struct strand *s = list_add(strands, sizeof *s);
+	struct strand *s = &out->strand[out->n++];
 	int at = from;
-	if (!s)
-		return;
-	s->first = (int)pieces->n;
+	memset(s, 0, sizeof *s);
+	s->first = out->n_pieces;
 	for (;;) {
 		done[at / 2] = true;
-		strand_add_arc(pieces, t, at);
+		out->order[out->n_arcs++] = at;
+		out->n_pieces += ((const struct arc *)t->arcs.p + at / 2)->n;
 		int next = k->to[at ^ 1];
 		if (next < 0 || done[next / 2])
 			break;
 		at = next;
 	}
-	s->n = (int)pieces->n - s->first;
+	s->n = out->n_pieces - s->first;
 	if (closed) {
 		s->end[0].kind = s->end[1].kind = STRAND_CLOSED;
 	} else {
@@ -179,51 +181,67 @@ static void strand_add(const struct tracer *t, const struct patch_links *k, bool
 	}
 }
 
-static enum status strands_make(struct tracer *t, struct list *strands, struct list *pieces)
+static void strands_make(struct tracer *t, struct patch_links *k, bool *done,
+                         struct patch_strands *out)
 {
-	size_t n = t->arcs.n;
-	struct patch_links k = { calloc(2 * n + 1, sizeof *k.to),
-		                 calloc(2 * n + 1, sizeof *k.end) };
-	bool *done = calloc(n + 1, sizeof *done);
-	enum status st = ST_RESOURCE;
-	if (!k.to || !k.end || !done)
-		goto out;
-	link_arcs(t, &k);
+	const size_t n = t->arcs.n;
+	memset(done, 0, n);
+	memset(k->to, 0, sizeof *k->to * 2 * n);
+	link_arcs(t, k);
 	for (size_t e = 0; e < 2 * n; e++)
-		if (k.to[e] < 0 && !done[e / 2])
-			strand_add(t, &k, done, (int)e, false, strands, pieces);
+		if (k->to[e] < 0 && !done[e / 2])
+			strand_add(t, k, done, (int)e, false, out);
 	for (size_t a = 0; a < n; a++)
 		if (!done[a])
-			strand_add(t, &k, done, (int)(2 * a), true, strands, pieces);
-	if (!strands->failed && !pieces->failed)
-		st = ST_OK;
-out:
-	free(k.to);
-	free(k.end);
-	free(done);
-	return st;
+			strand_add(t, k, done, (int)(2 * a), true, out);
+}
+
+/* The arc's pieces, backwards where it is entered at its end 1. */
+static void arc_write(const struct tracer *t, int from, struct text *out)
+{
+	const struct arc *a = (const struct arc *)t->arcs.p + from / 2;
+	const struct piece *p = (const struct piece *)t->pieces.p + a->first;
+	if (from % 2 == 0) {
+		text_add_bytes(out, p, sizeof *p * a->n);
+		return;
+	}
+	for (int i = a->n - 1; i >= 0; i--) {
+		struct piece turned = p[i];
+		piece_reverse(&turned);
+		text_add_bytes(out, &turned, sizeof turned);
+	}
 }
 
 static enum status patch_write(struct tracer *t, struct text *out)
 {
-	struct list strands = { 0 }, pieces = { 0 };
-	if (t->arcs.n == 0 && t->undecided.n == 0)
+	const size_t n = t->arcs.n;
+	if (n == 0 && t->undecided.n == 0)
 		return ST_OK;
-	enum status st = strands_make(t, &strands, &pieces);
-	if (st == ST_OK) {
-		struct patch_header h = { .magic = PATCH_MAGIC,
-			                  .patch = t->patch,
-			                  .n_strands = (int)strands.n,
-			                  .n_pieces = (int)pieces.n,
-			                  .n_undecided = (int)t->undecided.n };
-		text_add_bytes(out, &h, sizeof h);
-		text_add_bytes(out, strands.p, strands.n * sizeof(struct strand));
-		text_add_bytes(out, pieces.p, pieces.n * sizeof(struct piece));
-		text_add_bytes(out, t->undecided.p, t->undecided.n * sizeof(struct undecided));
-	}
-	free(strands.p);
-	free(pieces.p);
-	return out->failed ? ST_RESOURCE : st;
+	struct patch_strands made = { .n = 0 };
+	struct patch_links k;
+	/* from wide to narrow */
+	const size_t each = sizeof *made.strand + 2 * sizeof *k.end + 2 * sizeof *k.to +
+	                    sizeof *made.order + sizeof(bool);
+	double *room = level_room(t, n * each / sizeof *room + 1);
+	if (!room)
+		return ST_RESOURCE;
+	made.strand = (struct strand *)room;
+	k.end = (const struct arc_end **)(made.strand + n);
+	k.to = (int *)(k.end + 2 * n);
+	made.order = k.to + 2 * n;
+	strands_make(t, &k, (bool *)(made.order + n), &made);
+	struct patch_header h = { .magic = PATCH_MAGIC,
+		                  .patch = t->patch,
+		                  .n_strands = made.n,
+		                  .n_pieces = made.n_pieces,
+		                  .n_undecided = (int)t->undecided.n };
+	text_add_bytes(out, &h, sizeof h);
+	text_add_bytes(out, made.strand, made.n * sizeof *made.strand);
+	for (int i = 0; i < made.n_arcs; i++)
+		arc_write(t, made.order[i], out);
+	text_add_bytes(out, t->undecided.p, t->undecided.n * sizeof(struct undecided));
+	level_room_free(t, room);
+	return out->failed ? ST_RESOURCE : ST_OK;
 }
 
 double *level_room(struct tracer *t, size_t n)
@@ -240,48 +258,65 @@ double *level_room(struct tracer *t, size_t n)
 	return p;
 }
 
-/* Give back what level_room gave, if it is not in the room itself. */
-static void room_free(double *p, const double *room)
+void level_room_free(const struct tracer *t, double *p)
 {
-	if (p < room || p >= room + ROOM)
+	if (p < t->stack || p >= t->stack + ROOM)
 		free(p);
+}
+
+static void tracer_init(struct tracer *t, const struct level *l, size_t patch)
+{
+	const struct level_surface *s = l->surface;
+	t->level = l;
+	t->patch = (int)patch;
+	t->place[0] = t->patch / s->net.spans[1];
+	t->place[1] = t->patch % s->net.spans[1];
+	t->points = bezier_patch(&s->net, t->place[0], t->place[1]);
+	t->n_field = (size_t)(l->degree[0] + 1) * (l->degree[1] + 1);
+	for (int k = 0; k < 2; k++) {
+		t->bent[0][k] = s->bent[0][level_edge(s, 0, t->place[0] + k, t->place[1])];
+		t->bent[1][k] = s->bent[1][level_edge(s, 1, t->place[0], t->place[1] + k)];
+	}
+	if (s->normals)
+		t->normals = s->normals + level_normals_size(s) * patch;
+	if (l->side)
+		t->n_side = (size_t)(l->side_degree[0] + 1) * (l->side_degree[1] + 1);
 }
 
 enum status level_patch(const struct level *l, size_t patch, struct text *out)
 {
-	const struct level_surface *s = l->surface;
+	const enum level_kind kind = l->surface->kind;
+	if (level_plane_misses(l, patch))
+		return ST_OK;
 	double room[ROOM];
-	struct tracer t = { .level = l, .patch = (int)patch, .room = room, .n_room = ROOM };
+	struct piece pieces[LENT_PIECES];
+	struct arc arcs[LENT_ARCS];
+	struct arc_end ends[2 * LENT_ARCS];
+	struct tracer t = { .room = room,
+		            .stack = room,
+		            .n_room = ROOM,
+		            .pieces = { pieces, 0, LENT_PIECES, .lent = true },
+		            .arcs = { arcs, 0, LENT_ARCS, .lent = true },
+		            .ends = { ends, 0, 2 * LENT_ARCS, .lent = true } };
 	enum status st = ST_RESOURCE;
-	t.place[0] = t.patch / s->net.spans[1];
-	t.place[1] = t.patch % s->net.spans[1];
-	t.points = bezier_patch(&s->net, t.place[0], t.place[1]);
-	t.n_field = (size_t)(l->degree[0] + 1) * (l->degree[1] + 1);
-	for (int k = 0; k < 2; k++) {
-		t.bent[0][k] = s->bent[0][level_edge(s, 0, t.place[0] + k, t.place[1])];
-		t.bent[1][k] = s->bent[1][level_edge(s, 1, t.place[0], t.place[1] + k)];
-	}
-	if (s->normals)
-		t.normals = s->normals + level_normals_size(s) * patch;
-	if (l->side)
-		t.n_side = (size_t)(l->side_degree[0] + 1) * (l->side_degree[1] + 1);
+	tracer_init(&t, l, patch);
 	t.field = level_room(&t, t.n_field);
-	t.product = level_room(&t, s->kind == LEVEL_CURVATURE      ? level_curvature_room(l)
-	                           : level_shapes[s->kind].several ? level_kind_room(l)
-	                                                           : t.n_side + 1);
+	t.product = level_room(&t, kind == LEVEL_CURVATURE      ? level_curvature_room(l)
+	                           : level_shapes[kind].several ? level_kind_room(l)
+	                                                        : t.n_side + 1);
 	double *c = level_room(&t, t.n_field + t.n_side);
 	if (!t.failed && level_field_make(&t, c))
 		level_search(&t, c);
 	if (!t.failed)
 		st = patch_write(&t, out);
 	for (int i = 0; i < N_SCRATCH && t.scratch[i]; i++) /* filled in order */
-		room_free(t.scratch[i], room);
-	room_free(t.field, room);
-	room_free(t.product, room);
-	room_free(c, room);
-	free(t.arcs.p);
-	free(t.pieces.p);
-	free(t.ends.p);
-	free(t.undecided.p);
+		level_room_free(&t, t.scratch[i]);
+	level_room_free(&t, t.field);
+	level_room_free(&t, t.product);
+	level_room_free(&t, c);
+	list_finish(&t.arcs);
+	list_finish(&t.pieces);
+	list_finish(&t.ends);
+	list_finish(&t.undecided);
 	return st;
 }

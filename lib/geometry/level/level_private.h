@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <string.h>
 
 #include "level.h"
 #include "level_form.h"
@@ -46,9 +47,10 @@ struct patch_shape {
 
 /* Chebyshev's nodes, Hermite's polynomials there (four of four nodes), and the cosines that take values in the nodes to
  * coefficients. */
-enum { PROOF_NODES = 12 };
+enum { PROOF_NODES = 12, PROOF_GROUPS = PROOF_NODES / 4 };
 struct proof_tables {
-	double t[PROOF_NODES], h[PROOF_NODES / 4][4][4], cosine[PROOF_NODES][PROOF_NODES / 2];
+	double t[PROOF_GROUPS][4], h[PROOF_GROUPS][4][4]; /* node j is in group j % PROOF_GROUPS */
+	double cosine[PROOF_NODES][PROOF_NODES / 2];
 };
 
 /* The degree of the polynomial that stands for the normal's length, if the normal's is not higher. */
@@ -87,8 +89,10 @@ struct level_surface {
 	double *normal_error;       /* owned; one a patch: of each component's coefficients */
 	struct patch_shape *shapes; /* owned; one a patch */
 	struct proof_tables proof;
-	unsigned char *bent[2]; /* owned; like edges: derivatives of f may jump there */
-	double *binomial;       /* owned; triangle of rows, see binomial_row */
+	unsigned char *bent[2];    /* owned; like edges: derivatives of f may jump there */
+	double *binomial;          /* owned; triangle of rows, see binomial_row */
+	double *heights;           /* owned; LEVEL_PLANE: direction . (w S) of each control point */
+	double (*height_range)[2]; /* owned; .. of each patch where S is not rational */
 };
 
 struct level {
@@ -100,12 +104,13 @@ struct level {
 	int degree[2]; /* of f */
 	int side_degree[2];             /* of the side condition */
 	double tolerance, tolerance_uv; /* in space; in the surface's parameters, INFINITY: any */
+	struct bound plane;             /* LEVEL_PLANE: of f */
 };
 
 /* Kernels are built for wider vectors, too. Nothing is fused, so all give the same bits. (clang 14
  * emits such functions under a name that other files do not find.) */
 #if defined(__x86_64__) && !defined(__clang__)
-#define WIDE __attribute__((target_clones("avx2", "default")))
+#define WIDE __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #else
 #define WIDE
 #endif
@@ -163,7 +168,7 @@ static inline const double *binomial_row(const double *triangle, int n)
 	return triangle + (size_t)n * (n + 1) / 2;
 }
 
-/* level_normal.c */
+/* level_normal.c, level_edge.c */
 enum status level_normals(struct level_surface *s);
 enum status level_edges(struct level_surface *s); /* Errors: ST_RESOURCE */
 
@@ -175,13 +180,28 @@ bool level_smooth_at(const struct level_surface *s, int d, int line, int along, 
 bool root_single(const double *c, int n, double *t); /* one sign change: its place */
 int roots_find(const double *c, int n, double *t);   /* all, rising; t holds n + 2 */
 
-/* A list that grows; a failed one stays failed and holds what it had. */
+/* A list that grows; a failed one stays failed and holds what it had. It may begin in memory that is not its own. */
 struct list {
 	void *p;
 	size_t n, cap;
-	bool failed;
+	bool failed, lent; /* lent: p is not to be freed */
 };
-void *list_add(struct list *l, size_t size); /* zeroed room for one more, or NULL */
+bool list_reserve(struct list *l, size_t more, size_t size);
+void list_finish(struct list *l);
+
+/* Room for one more, not cleared, or NULL. */
+static inline void *list_next(struct list *l, size_t size)
+{
+	if (l->n == l->cap && !list_reserve(l, 1, size))
+		return NULL;
+	return (char *)l->p + size * l->n++;
+}
+
+static inline void *list_add(struct list *l, size_t size) /* cleared */
+{
+	void *p = list_next(l, size);
+	return p ? memset(p, 0, size) : NULL;
+}
 
 /* One cubic in u,v and in space over t in [0, 1]: ends and tangents. */
 struct piece {
@@ -231,8 +251,15 @@ struct tracer {
 	size_t n_product;           /* used of it */
 	double *room;               /* what is left of the memory on the stack */
 	size_t n_room;
-	bool failed; /* memory ran out */
+	const double *stack; /* all of it */
+	bool failed;         /* memory ran out */
 };
+
+/* level_field.c: what LEVEL_PLANE prepares. Errors: ST_RESOURCE. */
+enum status level_plane_prepare(struct level_surface *s);
+void level_plane_bound(struct level *l);
+bool level_plane_misses(const struct level *l,
+                        size_t patch); /* a quick look; never of other kinds */
 
 /* level_field.c: false where the patch holds no curve. `out`: f, then the side condition. */
 bool level_field_make(struct tracer *t, double *out);
@@ -281,6 +308,7 @@ void level_patch_undecided(struct tracer *t, bool flat);
 
 /* level_patch.c: n doubles, from the room or fresh; NULL: t->failed. */
 double *level_room(struct tracer *t, size_t n);
+void level_room_free(const struct tracer *t, double *p);
 
 /* level_field.c: the normal's components on the tracer's patch. */
 struct bound level_normal_bound(const struct tracer *t);
@@ -297,7 +325,6 @@ void level_arc_follow(struct tracer *t, const struct cell_range *box, const doub
                       int along, bool rising, const double ends[2][2]);
 
 /* level_prove.c */
-void level_proof_tables(struct proof_tables *p);
 void level_shape_of_patch(const double *points, int m, int n, struct patch_shape *out);
 
 /* Bounds that hold for all pieces of one cell. */
@@ -306,9 +333,10 @@ struct prover {
 	const struct patch_shape *shape;
 	struct cell_range box;
 	bool rational;
-	double second[3];             /* of f, in the cell */
-	double error;                 /* of f, where it is evaluated */
-	double width[2];              /* of the patch, in the surface's parameters */
+	double second[3],
+	        spread[3]; /* second derivatives of f in the cell: the middle and how far from it */
+	double error;      /* of f, where it is evaluated */
+	double width[2];   /* of the patch, in the surface's parameters */
 	double diameter, diameter_uv; /* of the cell, in space and in those parameters */
 };
 
@@ -316,20 +344,49 @@ struct prover {
  * `rounding`: the part that comes from the rounding of f, and stays however short the piece. */
 struct proof {
 	double space, uv, rounding[2];
+	double used; /* which part of the tolerances, as far as known where nothing is proved */
+	bool bent;   /* nothing is proved because f bends too much */
 };
 void level_prover_init(struct prover *p, const struct tracer *t, const struct cell_range *box,
                        const double *c, double error);
 
 /*
- * A place near the middle of a piece: the step across the curve that changes f by 1, its length in
- * space; and how the parameter in u,v is taken to that in space, t + t (1 - t) (first (1 - 2 t) +
- * second t (1 - t)).
+ * A place near the middle of a piece: the step across the curve that changes f by 1, in u,v and in
+ * space; and how the parameter in space is taken to that in u,v, t + t (1 - t) (match[0] + match[1] (1 - 2 t)
+ * + match[2] t (1 - t)).
  */
 struct proof_middle {
-	double uv[2], across[2], step, first, second;
+	double uv[2], across[2], step[3], match[3];
 };
 
-/* False where nothing is known. */
+/* A point of the curve, with unit tangent in space. */
+struct station {
+	double uv[2], duv[2]; /* unit speed in space */
+	double p[3], dp[3];
+};
+
+/*
+ * level_fit.c: cubics between two points of the curve. `uv`: a place next to the curve's middle; `off`: how far
+ * the cubic in space seems to be from the curve, squared. False where they lead out of the patch.
+ */
+bool level_fit(const struct tracer *t, const struct station *a, const struct station *b,
+               double length, struct piece *x, struct proof_middle *mid, double uv[2], double *off);
+
+/* mid->uv set, x the field there: the rest but how the parameters match. */
+void level_fit_middle(const struct field_point *x, struct proof_middle *mid);
+
+/* level_sample.c */
+void level_proof_tables(struct proof_tables *p);
+
+/* w (P - S + f M), M the step across, and f in the nodes of groups from .. to. */
+void level_sample(const struct prover *p, const struct piece *x, const struct proof_middle *mid,
+                  int from, int to, double out[PROOF_NODES][4]);
+
+/* Sums of the Chebyshev coefficients' sizes. */
+void level_sample_sums(const struct proof_tables *table, const double v[PROOF_NODES][4],
+                       double out[4]);
+
+/* False where nothing is known but out->used. */
 bool level_prove(const struct prover *p, const struct piece *x, const struct proof_middle *mid,
                  struct proof *out);
 

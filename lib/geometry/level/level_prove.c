@@ -5,8 +5,10 @@
  *      coefficients, the rest by f's size on an ellipse about [0, 1] in the complex plane. Across the
  *      piece f has a slope that its second derivatives keep from vanishing, so that on either side,
  *      no further away than bound / slope, it has changed its sign: there the exact curve passes.
- *   E: P(t) - S(c(s(t))) is bounded in the same way (times w where S is rational).
- * The curve in u,v is within U, the curve in space within E + U.
+ *      The curve in u,v is within that of it.
+ *   E: Let M be the step in space that changes f by 1 in the middle. To first order the exact curve is f M
+ *      away from S(c(s(t))). P(t) - S(c(s(t))) + f(c(s(t))) M is bounded in the same way (times w where S is
+ *      rational), and how much steps elsewhere can differ from M by the second derivatives of f and S.
  * Source: Trefethen, Approximation Theory and Approximation Practice, theorems 8.1 and 8.2.
  */
 #include "level_private.h"
@@ -16,31 +18,21 @@
 
 typedef double lanes __attribute__((vector_size(32)));
 
-enum { LANES = 4, NODES = PROOF_NODES, HALF = NODES / 2 };
+enum { NODES = PROOF_NODES, GROUPS = PROOF_GROUPS };
 
 /* The ellipse's sum of half axes is the larger the shorter the piece, up to this. */
 #define RHO_MAX 48.0
 #define RHO_MIN 2.0
 
+/* More bent than that proves nothing; else the curve is no further across than so many times f. */
+#define BENT_MAX 0.75
+#define ASIDE    4.0
+
+/* A piece that uses so many tolerances in some nodes is not looked at in the others. */
+#define USED_MAX 1.5
+
 /* A rest below this part of what it is added to is small enough. */
 #define REST_SHARE 0.01
-
-void level_proof_tables(struct proof_tables *p)
-{
-	for (int j = 0; j < NODES; j++) {
-		double t = 0.5 - 0.5 * cos(M_PI * (j + 0.5) / NODES), s = 1 - t;
-		p->t[j] = t;
-		double(*h)[LANES] = p->h[j / LANES];
-		h[0][j % LANES] = s * s * (1 + 2 * t);
-		h[1][j % LANES] = t * t * (1 + 2 * s);
-		h[2][j % LANES] = t * s * s;
-		h[3][j % LANES] = -t * t * s;
-	}
-	for (int k = 0; k < NODES; k++)
-		for (int j = 0; j < HALF; j++)
-			p->cosine[k][j] =
-			        (k == 0 ? 1.0 : 2.0) / NODES * cos(M_PI * k * (j + 0.5) / NODES);
-}
 
 static double power(double x, int n)
 {
@@ -51,24 +43,39 @@ static double power(double x, int n)
 	return r;
 }
 
-/* Largest second derivatives of f in the cell: uu, uv, vv, in the patch's parameters. */
-static void second_bounds(const double *c, int m, int n, double error, double out[3])
+/* The middle of what second differences come to, and how far they are from it. */
+struct range {
+	double lo, hi;
+};
+
+static void range_add(struct range *r, double x)
 {
-	size_t row = (size_t)n + 1;
-	double uu = 0, uv = 0, vv = 0;
+	r->lo = smaller(r->lo, x);
+	r->hi = larger(r->hi, x);
+}
+
+/* Second derivatives of f in the cell, uu, uv, vv, by its own parameters. */
+static void second_bounds(struct prover *p, const double *c, int m, int n, double error)
+{
+	const size_t row = (size_t)n + 1;
+	const double number[3] = { m * (m - 1.0), (double)m * n, n * (n - 1.0) };
+	struct range r[3];
+	for (int g = 0; g < 3; g++)
+		r[g] = (struct range){ number[g] > 0 ? INFINITY : 0,
+			               number[g] > 0 ? -INFINITY : 0 };
+	for (int i = 0; i + 2 <= m; i++)
+		for (const double *x = c + row * i; x < c + row * (i + 1); x++)
+			range_add(&r[0], x[0] - 2 * x[row] + x[2 * row]);
+	for (int i = 0; i + 1 <= m; i++)
+		for (const double *x = c + row * i; x < c + row * (i + 1) - 1; x++)
+			range_add(&r[1], x[0] - x[1] - x[row] + x[row + 1]);
 	for (int i = 0; i <= m; i++)
-		for (int j = 0; j <= n; j++) {
-			const double *x = c + row * i + j;
-			if (i + 2 <= m)
-				uu = larger(uu, fabs(x[0] - 2 * x[row] + x[2 * row]));
-			if (j + 2 <= n)
-				vv = larger(vv, fabs(x[0] - 2 * x[1] + x[2]));
-			if (i < m && j < n)
-				uv = larger(uv, fabs(x[0] - x[1] - x[row] + x[row + 1]));
-		}
-	out[0] = (uu + 4 * error) * m * (m - 1);
-	out[1] = (uv + 4 * error) * m * n;
-	out[2] = (vv + 4 * error) * n * (n - 1);
+		for (const double *x = c + row * i; x < c + row * (i + 1) - 2; x++)
+			range_add(&r[2], x[0] - 2 * x[1] + x[2]);
+	for (int g = 0; g < 3; g++) {
+		p->second[g] = 0.5 * (r[g].lo + r[g].hi) * number[g];
+		p->spread[g] = (0.5 * (r[g].hi - r[g].lo) + 4 * error) * number[g];
+	}
 }
 
 /* Largest derivative of forms y (three components and a weight), i times in u and j times in v, each
@@ -138,16 +145,17 @@ void level_prover_init(struct prover *p, const struct tracer *t, const struct ce
 {
 	const struct level_surface *s = t->level->surface;
 	const int *degree = t->level->degree;
-	double second[3];
 	p->t = t;
 	p->box = *box;
 	p->shape = s->shapes + t->patch;
 	p->rational = s->net.rational;
-	second_bounds(c, degree[0], degree[1], error, second);
+	second_bounds(p, c, degree[0], degree[1], error);
 	double hu = box->hi[0] - box->lo[0], hv = box->hi[1] - box->lo[1];
-	p->second[0] = second[0] / (hu * hu);
-	p->second[1] = second[1] / (hu * hv);
-	p->second[2] = second[2] / (hv * hv);
+	const double area[3] = { hu * hu, hu * hv, hv * hv };
+	for (int g = 0; g < 3; g++) {
+		p->second[g] /= area[g];
+		p->spread[g] /= area[g];
+	}
 	for (int d = 0; d < 2; d++) {
 		const double *b = s->net.breaks[d] + t->place[d];
 		p->width[d] = b[1] - b[0];
@@ -157,152 +165,21 @@ void level_prover_init(struct prover *p, const struct tracer *t, const struct ce
 	p->error = t->bound.error + (degree[0] + degree[1] + 8) * 4 * UNIT_ROUNDOFF * t->bound.size;
 }
 
-static inline __attribute__((always_inline)) void basis(int n, const lanes *at, lanes *b)
-{
-	lanes t = *at, s = 1 - t;
-	b[0] = (lanes){ 1, 1, 1, 1 };
-	for (int r = 1; r <= n; r++) {
-		lanes left = { 0 };
-		for (int i = 0; i < r; i++) {
-			lanes x = b[i];
-			b[i] = left + s * x;
-			left = t * x;
-		}
-		b[r] = left;
-	}
-}
-
-static inline __attribute__((always_inline)) void
-sum_field(const double *c, int m, int n, const lanes *bu, const lanes *bv, lanes *out)
-{
-	lanes f = { 0 };
-	for (int i = 0; i <= m; i++, c += n + 1) {
-		lanes row = { 0 };
-		for (int j = 0; j <= n; j++)
-			row += bv[j] * c[j];
-		f += bu[i] * row;
-	}
-	*out = f;
-}
-
-static inline __attribute__((always_inline)) void sum_points(const double *c, int m, int n,
-                                                             bool rational, const lanes *bu,
-                                                             const lanes *bv, lanes out[4])
-{
-	lanes x = { 0 }, y = { 0 }, z = { 0 }, w = { 0 };
-	for (int i = 0; i <= m; i++) {
-		lanes rx = { 0 }, ry = { 0 }, rz = { 0 }, rw = { 0 };
-		for (int j = 0; j <= n; j++, c += 4) {
-			rx += bv[j] * c[0];
-			ry += bv[j] * c[1];
-			rz += bv[j] * c[2];
-			if (rational)
-				rw += bv[j] * c[3];
-		}
-		x += bu[i] * rx;
-		y += bu[i] * ry;
-		z += bu[i] * rz;
-		w += bu[i] * rw;
-	}
-	out[0] = x;
-	out[1] = y;
-	out[2] = z;
-	out[3] = rational ? w : (lanes){ 1, 1, 1, 1 };
-}
-
-/* w (P - S) and f in the nodes. s: the places of c that belong to them. */
-WIDE static void sample(const struct prover *p, const struct piece *x, const double *s,
-                        double out[NODES][4])
-{
-	const struct level *l = p->t->level;
-	const struct level_surface *surface = l->surface;
-	int m = l->degree[0], n = l->degree[1];
-	int pm = surface->net.order[0] - 1, pn = surface->net.order[1] - 1;
-	lanes bu[FIELD_DEGREE_MAX + 1], bv[FIELD_DEGREE_MAX + 1];
-	for (int g = 0; g < NODES; g += LANES) {
-		lanes t, r, uv[2], q[4], f;
-		memcpy(&t, s + g, sizeof t);
-		r = 1 - t;
-		lanes h0 = r * r * (1 + 2 * t), h1 = t * t * (1 + 2 * r), h2 = t * r * r,
-		      h3 = t * t * r;
-		for (int d = 0; d < 2; d++)
-			uv[d] = h0 * x->uv[0][d] + h1 * x->uv[1][d] + h2 * x->duv[0][d] -
-			        h3 * x->duv[1][d];
-		if (pm == 3 && pn == 3 && !p->rational) {
-			basis(3, &uv[0], bu);
-			basis(3, &uv[1], bv);
-			sum_points(p->t->points, 3, 3, false, bu, bv, q);
-		} else {
-			basis(pm, &uv[0], bu);
-			basis(pn, &uv[1], bv);
-			sum_points(p->t->points, pm, pn, p->rational, bu, bv, q);
-		}
-		if (surface->kind == LEVEL_PLANE && !p->t->own_field) {
-			const double *d = l->direction;
-			f = d[0] * q[0] + d[1] * q[1] + d[2] * q[2] + d[3] * q[3];
-		} else if (m == 5 && n == 5) {
-			basis(5, &uv[0], bu);
-			basis(5, &uv[1], bv);
-			sum_field(p->t->field, 5, 5, bu, bv, &f);
-		} else {
-			basis(m, &uv[0], bu);
-			basis(n, &uv[1], bv);
-			sum_field(p->t->field, m, n, bu, bv, &f);
-		}
-		lanes h[4];
-		memcpy(h, surface->proof.h[g / LANES], sizeof h);
-		for (int d = 0; d < 3; d++) {
-			lanes at = h[0] * x->p[0][d] + h[1] * x->p[1][d] + h[2] * x->dp[0][d] +
-			           h[3] * x->dp[1][d];
-			q[d] = at * q[3] - q[d];
-		}
-		for (int k = 0; k < LANES; k++) {
-			for (int d = 0; d < 3; d++)
-				out[g + k][d] = q[d][k];
-			out[g + k][3] = f[k];
-		}
-	}
-}
-
-/* Sums of the Chebyshev coefficients' sizes. */
-WIDE static void coefficient_sums(const struct proof_tables *table, const double v[NODES][4],
-                                  double out[4])
-{
-	lanes even[HALF], odd[HALF];
-	double coefficient[LANES];
-	memset(out, 0, sizeof coefficient);
-	for (int j = 0; j < HALF; j++) {
-		lanes a, b;
-		memcpy(&a, v[j], sizeof a);
-		memcpy(&b, v[NODES - 1 - j], sizeof b);
-		even[j] = a + b;
-		odd[j] = a - b;
-	}
-	for (int k = 0; k < NODES; k++) {
-		const lanes *x = k % 2 ? odd : even;
-		lanes a = { 0 };
-		for (int j = 0; j < HALF; j++)
-			a += x[j] * table->cosine[k][j];
-		memcpy(coefficient, &a, sizeof a);
-		for (int d = 0; d < LANES; d++)
-			out[d] += fabs(coefficient[d]);
-	}
-}
-
-/* What the interpolants leave out, of f and of w (P - S). */
+/* What the interpolants leave out, of f and of w (P - S + f M). */
 struct rest {
 	double f, s;
 };
 
 /* From the sizes on the ellipse with that sum of half axes. */
 static struct rest rest_at(const struct prover *p, const double cubic[2][4],
-                           const struct proof_middle *mid, double rho)
+                           const struct proof_middle *mid, double across, double rho)
 {
 	const struct level *l = p->t->level;
 	const struct level_surface *surface = l->surface;
 	double sigma = 0.5 * (rho + 1 / rho), growth[2], reach;
-	reach = 0.5 * sigma + 0.25 * sigma * sigma * sigma * fabs(mid->first) +
-	        0.0625 * sigma * sigma * sigma * sigma * fabs(mid->second);
+	const double square = sigma * sigma / 4, *match = mid->match; /* of t (1 - t) */
+	reach = 0.5 * sigma +
+	        square * (fabs(match[0]) + sigma * fabs(match[1]) + square * fabs(match[2]));
 	for (int d = 0; d < 2; d++) {
 		double beyond = larger(0, larger(-cubic[d][0], cubic[d][0] - 1));
 		growth[d] =
@@ -311,29 +188,134 @@ static struct rest rest_at(const struct prover *p, const double cubic[2][4],
 		                          reach * (fabs(cubic[d][2]) + reach * fabs(cubic[d][3]))));
 	}
 	double rest = 4 / (power(rho, NODES - 1) * (rho - 1));
+	double f =
+	        rest * p->t->most * power(growth[0], l->degree[0]) * power(growth[1], l->degree[1]);
 	/* P is a cubic, its points no further from the patch's first than the patch */
-	return (struct rest){ rest * p->t->most * power(growth[0], l->degree[0]) *
-		                      power(growth[1], l->degree[1]),
-		              rest * p->shape->weight[1] * p->shape->radius *
-		                      (p->rational ? 1 + 2 * power(sigma, 3) : 1) *
-		                      power(growth[0], surface->net.order[0] - 1) *
-		                      power(growth[1], surface->net.order[1] - 1) };
+	double weight = p->shape->weight[1] * power(growth[0], surface->net.order[0] - 1) *
+	                power(growth[1], surface->net.order[1] - 1);
+	return (struct rest){ f, rest * weight * p->shape->radius *
+		                                 (p->rational ? 1 + 2 * power(sigma, 3) : 1) +
+		                         f * across * (p->rational ? weight : 1) };
 }
 
 /* From the largest ellipse, or a smaller one where that leaves too much: with high degrees the sizes grow
  * faster on it than the rest falls. sum: what the interpolants themselves come to. */
 static struct rest rest_least(const struct prover *p, const double cubic[2][4],
-                              const struct proof_middle *mid, double span, const double sum[4])
+                              const struct proof_middle *mid, double across, double span,
+                              const double sum[4])
 {
 	double rho = smaller(4 / larger(2 * span, 1e-3), RHO_MAX);
-	struct rest best = rest_at(p, cubic, mid, rho);
+	struct rest best = rest_at(p, cubic, mid, across, rho);
 	while ((best.f > REST_SHARE * sum[3] || best.s > REST_SHARE * (sum[0] + sum[1] + sum[2])) &&
 	       (rho /= 1.5) > RHO_MIN) {
-		struct rest x = rest_at(p, cubic, mid, rho);
+		struct rest x = rest_at(p, cubic, mid, across, rho);
 		best.f = smaller(best.f, x.f);
 		best.s = smaller(best.s, x.s);
 	}
 	return best;
+}
+
+/* Of the second derivatives, taken along a and b: the largest in the cell, or that far outside. */
+static double second_along(const struct prover *p, const double a[2], const double b[2],
+                           double more)
+{
+	const double mixed[3] = { a[0] * b[0], a[0] * b[1] + a[1] * b[0], a[1] * b[1] };
+	double middle = 0, spread = 0;
+	for (int g = 0; g < 3; g++) {
+		middle += mixed[g] * p->second[g];
+		spread += fabs(mixed[g]) * p->spread[g];
+	}
+	return fabs(middle) + more * spread;
+}
+
+/*
+ * How much the slope across can differ from that in the middle. All places are the middle, and parts of the
+ * piece's own direction there and of that across.
+ */
+static double slope_change(const struct prover *p, const double cubic[2][4],
+                           const struct proof_middle *mid, double f, double more)
+{
+	const double along[2] = { cubic[0][1], cubic[1][1] }, *across = mid->across;
+	const double per_area = 1 / (along[0] * across[1] - along[1] * across[0]);
+	const double half[4] = { 1, 0.5, 0.25, 0.125 };
+	double reach[2] = { 0.5, ASIDE * f };
+	for (int k = 0; k < 4; k++) {
+		const double x = cubic[0][k] - (k == 0 ? mid->uv[0] : 0);
+		const double y = cubic[1][k] - (k == 0 ? mid->uv[1] : 0);
+		if (k == 1)
+			continue;
+		reach[0] += half[k] * fabs((x * across[1] - y * across[0]) * per_area);
+		reach[1] += half[k] * fabs((along[0] * y - along[1] * x) * per_area);
+	}
+	return reach[0] * second_along(p, along, across, more) +
+	       reach[1] * second_along(p, across, across, more);
+}
+
+/* c in powers of t - 1/2; how far it goes from its middle, from the place of which the slope is known, and
+ * out of the box, in parts of that. */
+struct course {
+	double cubic[2][4], span[2], away[2], outside;
+};
+
+static void course_set(const struct prover *p, const struct piece *x,
+                       const struct proof_middle *mid, struct course *c)
+{
+	c->outside = 0;
+	for (int d = 0; d < 2; d++) {
+		const double a = x->uv[0][d], b = x->uv[1][d], da = x->duv[0][d], db = x->duv[1][d];
+		double *k = c->cubic[d];
+		k[0] = 0.5 * (a + b) + 0.125 * (da - db);
+		k[1] = 1.5 * (b - a) - 0.25 * (da + db);
+		k[2] = 0.5 * (db - da);
+		k[3] = da + db - 2 * (b - a);
+		c->span[d] = 0.5 * fabs(k[1]) + 0.25 * fabs(k[2]) + 0.125 * fabs(k[3]);
+		c->away[d] = c->span[d] + fabs(k[0] - mid->uv[d]);
+		const double lo = p->box.lo[d], hi = p->box.hi[d];
+		const double over = larger(lo - (k[0] - c->span[d]), k[0] + c->span[d] - hi);
+		c->outside = larger(c->outside, over / (hi - lo));
+	}
+}
+
+/* The step across, and how much its slope and its length can differ elsewhere. */
+struct step {
+	double bent, turned, length, uv;
+};
+
+/* On the piece and as far across from it as the curve may be. */
+static struct step step_bounds(const struct prover *p, const struct course *c,
+                               const struct proof_middle *mid, double f)
+{
+	const struct level *l = p->t->level;
+	const double w[2] = { fabs(mid->across[0]), fabs(mid->across[1]) };
+	const double *second = p->shape->second, *m = mid->step;
+	double away[2], outside = c->outside;
+	for (int d = 0; d < 2; d++) {
+		away[d] = c->away[d] + ASIDE * f * w[d];
+		outside += ASIDE * f * w[d] / (p->box.hi[d] - p->box.lo[d]);
+	}
+	const double more = power(1 + 2 * outside, l->degree[0] + l->degree[1]);
+	return (struct step){
+		2 * p->error * (w[0] * l->degree[0] + w[1] * l->degree[1]) +
+		        slope_change(p, c->cubic, mid, f, more),
+		w[0] * (second[0] * away[0] + second[1] * away[1]) +
+		        w[1] * (second[1] * away[0] + second[2] * away[1]),
+		sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]),
+		length2(w[0] * p->width[0], w[1] * p->width[1]),
+	};
+}
+
+/* The largest in a group of nodes, of the tolerances. */
+static double used_at(const struct prover *p, const struct step *step, const double v[NODES][4],
+                      int g)
+{
+	const struct level *l = p->t->level;
+	double most = 0, f = 0;
+	for (int j = g; j < NODES; j += GROUPS) {
+		most = larger(most, v[j][0] * v[j][0] + v[j][1] * v[j][1] + v[j][2] * v[j][2]);
+		f = larger(f, fabs(v[j][3]));
+	}
+	return larger(sqrt(most) / (p->shape->weight[1] * l->tolerance),
+	              f * step->uv / l->tolerance_uv);
 }
 
 bool level_prove(const struct prover *p, const struct piece *x, const struct proof_middle *mid,
@@ -341,57 +323,38 @@ bool level_prove(const struct prover *p, const struct piece *x, const struct pro
 {
 	const struct level *l = p->t->level;
 	const struct level_surface *surface = l->surface;
-	const struct proof_tables *table = &surface->proof;
-	double s[NODES], v[NODES][4], sum[4], span[2], away[2], outside = 0;
-	/* c in powers of t - 1/2: how far it goes from its middle, really and on the ellipse */
-	double cubic[2][4];
-	for (int d = 0; d < 2; d++) {
-		double a = x->uv[0][d], b = x->uv[1][d], da = x->duv[0][d], db = x->duv[1][d];
-		cubic[d][0] = 0.5 * (a + b) + 0.125 * (da - db);
-		cubic[d][1] = 1.5 * (b - a) - 0.25 * (da + db);
-		cubic[d][2] = 0.5 * (db - da);
-		cubic[d][3] = da + db - 2 * (b - a);
-		span[d] = 0.5 * fabs(cubic[d][1]) + 0.25 * fabs(cubic[d][2]) +
-		          0.125 * fabs(cubic[d][3]);
-		away[d] = span[d] + fabs(cubic[d][0] - mid->uv[d]);
-		double lo = p->box.lo[d], hi = p->box.hi[d];
-		double over = larger(lo - (cubic[d][0] - span[d]), cubic[d][0] + span[d] - hi);
-		outside = larger(outside, over / (hi - lo));
-	}
-	for (int j = 0; j < NODES; j++) {
-		double t = table->t[j], r = 1 - t;
-		s[j] = t + t * r * (mid->first * (1 - 2 * t) + mid->second * t * r);
-	}
-	if (fabs(mid->first) + fabs(mid->second) > 0.5)
+	const double *q = mid->match;
+	double v[NODES][4], sum[4];
+	struct course c;
+	course_set(p, x, mid, &c);
+	struct step step = step_bounds(p, &c, mid, p->error);
+	out->used = 0;
+	out->bent = false;
+	/* the parameter stays in [0, 1] */
+	if (!(fabs(q[0]) + fabs(q[1]) + fabs(q[2]) / 4 < 0.9))
 		return false;
-	sample(p, x, s, v);
-	coefficient_sums(table, v, sum);
-
-	struct rest rest = rest_least(p, cubic, mid, larger(span[0], span[1]), sum);
-	double f = sum[3] + rest.f + p->error;
-	double e = (sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) + rest.s) /
-	                   p->shape->weight[0] +
-	           4 * (surface->of_points.error + 16 * UNIT_ROUNDOFF * surface->reach);
-
-	/* f's slope across, 1 in the middle, and the length of a step across */
-	double w[2] = { fabs(mid->across[0]), fabs(mid->across[1]) };
-	double slope_error = 2 * p->error * (w[0] * l->degree[0] + w[1] * l->degree[1]);
-	for (int d = 0; d < 2; d++) {
-		away[d] += 2 * f * w[d];
-		outside = larger(outside, 0) + 2 * f * w[d] / (p->box.hi[d] - p->box.lo[d]);
-	}
-	const double *b = p->second, *c = p->shape->second;
-	double more = power(1 + 2 * outside, l->degree[0] + l->degree[1]);
-	double bent = slope_error + more * (w[0] * (b[0] * away[0] + b[1] * away[1]) +
-	                                    w[1] * (b[1] * away[0] + b[2] * away[1]));
-	double turned =
-	        w[0] * (c[0] * away[0] + c[1] * away[1]) + w[1] * (c[1] * away[0] + c[2] * away[1]);
-	if (!(bent < 0.5))
+	level_sample(p, x, mid, 0, 1, v);
+	out->used = used_at(p, &step, v, 0);
+	out->bent = !(step.bent < BENT_MAX);
+	if (out->bent || out->used > USED_MAX)
 		return false;
-	double step = (mid->step + turned) / (1 - bent);
-	double step_uv = length2(w[0] * p->width[0], w[1] * p->width[1]);
-	*out = (struct proof){ e + f * step,
-		               f * step_uv / (1 - bent),
-		               { p->error * mid->step, p->error * step_uv } };
+	level_sample(p, x, mid, 1, GROUPS, v);
+	level_sample_sums(&surface->proof, v, sum);
+	struct rest rest =
+	        rest_least(p, c.cubic, mid, step.length, larger(c.span[0], c.span[1]), sum);
+	const double f = sum[3] + rest.f + p->error;
+	const double e = (sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) + rest.s) /
+	                         p->shape->weight[0] +
+	                 4 * (surface->of_points.error + 16 * UNIT_ROUNDOFF * surface->reach) +
+	                 2 * p->error * step.length;
+	step = step_bounds(p, &c, mid, f);
+	out->bent = !(step.bent < BENT_MAX);
+	if (out->bent)
+		return false;
+	out->space = e + f * (step.length * step.bent + step.turned) / (1 - step.bent);
+	out->uv = f * step.uv / (1 - step.bent);
+	out->rounding[0] = p->error * step.length;
+	out->rounding[1] = p->error * step.uv;
+	out->used = larger(out->space / l->tolerance, out->uv / l->tolerance_uv);
 	return isfinite(out->space) && isfinite(out->uv);
 }

@@ -12,6 +12,10 @@
 
 enum { HALVINGS_MAX = 48 };
 
+/* A smaller step is the last, where the slope hardly changes over it. */
+#define SURE_MOVE 2e-6
+#define SURE_BEND 1e-4
+
 static int sign_changes(const double *c, int n)
 {
 	int k = 0;
@@ -20,19 +24,23 @@ static int sign_changes(const double *c, int n)
 	return k;
 }
 
-/* Value and slope at x by de Casteljau's steps. */
-static double evaluate(const double *c, int n, double x, double *slope)
+/* Value and derivatives at x by de Casteljau's steps. */
+static double evaluate(const double *c, int n, double x, double *slope, double *bend)
 {
 	double d[FIELD_DEGREE_MAX + 1];
+	*bend = 0;
 	memcpy(d, c, sizeof *d * (n + 1));
-	for (int r = 1; r < n; r++)
+	for (int r = 1; r < n; r++) {
+		if (r == n - 1)
+			*bend = n * (n - 1) * (d[0] - 2 * d[1] + d[2]);
 		for (int i = 0; i <= n - r; i++)
 			d[i] += x * (d[i + 1] - d[i]);
+	}
 	*slope = n * (d[1] - d[0]);
 	return d[0] + x * (d[1] - d[0]);
 }
 
-/* Newton's method kept in a bracket. */
+/* Halley's method kept in a bracket. */
 bool root_single(const double *c, int n, double *t)
 {
 	if (n < 1 || (c[0] < 0) == (c[n] < 0))
@@ -42,17 +50,21 @@ bool root_single(const double *c, int n, double *t)
 	if (!(x >= 0 && x <= 1))
 		x = 0.5;
 	for (int step = 0; step < 100; step++) {
-		double slope, f = evaluate(c, n, x, &slope);
+		double slope, bend, f = evaluate(c, n, x, &slope, &bend);
 		if (f == 0)
 			break;
 		if ((f < 0) == (c[0] < 0))
 			lo = x;
 		else
 			hi = x;
-		double next = x - f / slope;
-		if (!(next >= lo && next <= hi))
+		double move = -2 * f * slope / (2 * slope * slope - f * bend);
+		double next = x + move;
+		const bool inside = next >= lo && next <= hi;
+		if (!inside)
 			next = 0.5 * (lo + hi);
-		bool near = fabs(next - x) < 1e-14;
+		/* what is left goes with the move's third power */
+		bool near = fabs(next - x) < 1e-14 || (inside && fabs(move) < SURE_MOVE &&
+		                                       fabs(bend * move) < SURE_BEND * fabs(slope));
 		x = next;
 		if (near || hi - lo < 1e-16)
 			break;
