@@ -9,10 +9,13 @@
 #include "file.h"
 #include "json.h"
 #include "path.h"
+#include "print.h"
 #include "reading.h"
 #include "text.h"
 #include "verbs.h"
 #include "work_order.h"
+
+enum { HAND_OVER = 1 << 18 }; /* bytes at once */
 
 static const struct option_row import_options[] = {
 	{ "--into", NULL, "DIR", "folder to write into (default: the current one)" },
@@ -30,7 +33,7 @@ struct import {
 	const char *folder, *basic;
 	bool inputs;
 	int n_chosen;
-	json_t *entities;
+	struct print print; /* of JSON; what it says waits until all is written */
 };
 
 /* Where an entity goes: DIR/NAME.base, DIR/NAME-3.base. Fresh. */
@@ -63,12 +66,11 @@ static enum status write_entity(struct import *x, const struct entity *e)
 		st = report_error(r, ST_RESOURCE, "memory ran out");
 	else
 		st = file_write(path, t.s, t.n, r);
-	if (st == ST_OK)
-		json_array_append_new(x->entities,
-		                      json_pack("{s:i, s:s, s:s?, s:o, s:s}", "number", e->number,
-		                                "kind", entity_kind_name(e->kind), "name", e->name,
-		                                "de", e->de ? json_integer(e->de) : json_null(),
-		                                "path", path));
+	if (st == ST_OK && x->i->json)
+		print_row(&x->print,
+		          json_pack("{s:i, s:s, s:s?, s:o, s:s}", "number", e->number, "kind",
+		                    entity_kind_name(e->kind), "name", e->name, "de",
+		                    e->de ? json_integer(e->de) : json_null(), "path", path));
 	if (st == ST_OK && !x->i->json)
 		puts(path);
 	free(path);
@@ -130,23 +132,35 @@ static json_t *complaints(const struct model *m)
 	                 skipped, "warnings", warnings);
 }
 
+static enum status send(const struct text *t, int fd, const struct report *r)
+{
+	size_t done = 0;
+
+	if (t->failed)
+		return report_error(r, ST_RESOURCE, "memory ran out");
+	while (done < t->n) {
+		const ssize_t n = write(fd, t->s + done, t->n - done);
+		if (n > 0)
+			done += (size_t)n;
+		else if (errno != EINTR)
+			return report_error(r, status_from_errno(errno),
+			                    "cannot hand over what was read: %s", strerror(errno));
+	}
+	return ST_OK;
+}
+
 /* The whole model to an open descriptor. */
 static int hand_over(const struct invocation *i, const struct model *m, int fd)
 {
 	struct text t = { 0 };
-	size_t done = 0;
 	enum status st = ST_OK;
 
-	base_format(m, &t);
-	if (t.failed)
-		st = report_error(&i->report, ST_RESOURCE, "memory ran out");
-	while (st == ST_OK && done < t.n) {
-		const ssize_t n = write(fd, t.s + done, t.n - done);
-		if (n > 0)
-			done += (size_t)n;
-		else if (errno != EINTR)
-			st = report_error(&i->report, status_from_errno(errno),
-			                  "cannot hand over what was read: %s", strerror(errno));
+	for (int piece = 0; piece <= m->n && st == ST_OK; piece++) {
+		base_format_piece(m, piece, &t);
+		if (t.failed || t.n > HAND_OVER || piece == m->n) {
+			st = send(&t, fd, &i->report);
+			text_reset(&t);
+		}
 	}
 	text_finish(&t);
 	return st == ST_OK ? print_json(complaints(m)) : status_exit(st);
@@ -178,8 +192,12 @@ static int import_run(const struct invocation *i)
 		            .m = &m,
 		            .folder = into ? into : ".",
 		            .basic = basic,
-		            .inputs = invocation_flag(i, "--inputs"),
-		            .entities = json_array() };
+		            .inputs = invocation_flag(i, "--inputs") };
+	if (i->json) {
+		print_begin(&x.print, true);
+		print_member(&x.print, "file", m.file ? json_string(m.file) : json_null());
+		print_rows(&x.print, "entities");
+	}
 	if (into)
 		st = folder_make(into, 0777, &i->report);
 	if (st == ST_OK)
@@ -190,9 +208,11 @@ static int import_run(const struct invocation *i)
 		report_warning(&i->report, "skipped %d of type %d from D%d: %s", m.skipped[k].count,
 		               m.skipped[k].type, m.skipped[k].first_de, m.skipped[k].reason);
 	int rc = status_exit(st);
-	if (st == ST_OK && i->json)
-		rc = print_json(json_pack("{s:s, s:O}", "file", m.file, "entities", x.entities));
-	json_decref(x.entities);
+	if (st == ST_OK && i->json) {
+		print_rows_end(&x.print);
+		rc = print_end(&x.print);
+	}
+	print_forget(&x.print);
 	free(basic);
 	model_finish(&m);
 	return rc;

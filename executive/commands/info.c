@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "json.h"
-#include "path.h"
+#include "print.h"
 #include "reading.h"
 #include "verbs.h"
 
@@ -97,41 +97,63 @@ static json_t *entity_json(const struct entity *e, bool whole_areas)
 	return o;
 }
 
-static json_t *info_json(const struct model *m, const struct entity *chosen, const char *file)
-{
-	json_t *skipped = json_array(), *entities = json_array(), *warnings = json_array();
-	int read = 0;
-	int64_t points = 0;
+/* What of a file is told. */
+struct telling {
+	const struct model *m;
+	const struct entity *chosen; /* NULL: all that have a number */
+	const char *file;
+	bool whole_areas;
+};
 
-	for (int k = 0; k < m->n_skipped; k++)
-		json_array_append_new(skipped,
-		                      json_pack("{s:i, s:i, s:s, s:i}", "type", m->skipped[k].type,
-		                                "count", m->skipped[k].count, "reason",
-		                                m->skipped[k].reason, "first_de",
-		                                m->skipped[k].first_de));
-	for (int k = 0; k < m->n; k++) {
-		const struct entity *e = &m->entities[k];
-		read++;
-		if (chosen ? e == chosen : e->number > 0)
+static bool is_told(const struct telling *t, const struct entity *e)
+{
+	return t->chosen ? e == t->chosen : e->number > 0;
+}
+
+/* Few control points: areas do not take long. */
+static bool is_small(const struct telling *t)
+{
+	int64_t points = 0;
+	for (int k = 0; k < t->m->n; k++) {
+		const struct entity *e = &t->m->entities[k];
+		if (e->kind == ENTITY_SURFACE && is_told(t, e))
 			points += (int64_t)e->geometry.n[0] * e->geometry.n[1];
 	}
-	for (int k = 0; k < m->n; k++) {
-		const struct entity *e = &m->entities[k];
-		if (chosen ? e == chosen : e->number > 0)
-			json_array_append_new(entities, entity_json(e, points <= AREA_POINTS));
-	}
+	return points <= AREA_POINTS;
+}
+
+static json_t *skipped_json(const struct skipped *s)
+{
+	return json_pack("{s:i, s:i, s:s, s:i}", "type", s->type, "count", s->count, "reason",
+	                 s->reason, "first_de", s->first_de);
+}
+
+/* Files have more entities than a tree of all would find room for. */
+static int print_info_json(const struct telling *t)
+{
+	const struct model *m = t->m;
+	struct print p;
+
+	print_begin(&p, false);
+	print_member(&p, "file", t->file ? json_string(t->file) : json_null());
+	print_member(&p, "unit", m->unit ? json_string(m->unit) : json_null());
+	print_member(&p, "unit_in_mm", json_real_or_null(m->unit_in_mm > 0 ? m->unit_in_mm : NAN));
+	print_member(&p, "scale", json_real_or_null(m->scale));
+	print_member(&p, "read", json_integer(m->n));
+	print_rows(&p, "skipped");
+	for (int k = 0; k < m->n_skipped; k++)
+		print_row(&p, skipped_json(&m->skipped[k]));
+	print_rows_end(&p);
+	print_rows(&p, "entities");
+	for (int k = 0; k < m->n; k++)
+		if (is_told(t, &m->entities[k]))
+			print_row(&p, entity_json(&m->entities[k], t->whole_areas));
+	print_rows_end(&p);
+	json_t *warnings = json_array();
 	for (int k = 0; k < m->n_warnings; k++)
 		json_array_append_new(warnings, json_string(m->warnings[k]));
-	json_t *o = json_object();
-	json_set_text(o, "file", file);
-	json_set_text(o, "unit", m->unit);
-	json_set_number(o, "unit_in_mm", m->unit_in_mm > 0 ? m->unit_in_mm : NAN);
-	json_set_number(o, "scale", m->scale);
-	json_set_int(o, "read", read);
-	json_object_set_new(o, "skipped", skipped);
-	json_object_set_new(o, "entities", entities);
-	json_object_set_new(o, "warnings", warnings);
-	return o;
+	print_member(&p, "warnings", warnings);
+	return print_end(&p);
 }
 
 static void print_entity(const json_t *e)
@@ -181,46 +203,49 @@ static void print_entity(const json_t *e)
 	putchar('\n');
 }
 
-static void print_info(const json_t *o)
+static void print_info(const struct telling *t)
 {
-	size_t k;
-	json_t *row;
-	double mm = json_number(o, "unit_in_mm", 0), scale = json_number(o, "scale", 1);
+	const struct model *m = t->m;
 
-	printf("%s: unit %s", json_text(o, "file", ""), json_text(o, "unit", "not named"));
-	if (mm > 0)
-		printf(" (%g mm)", mm);
-	if (scale != 1)
-		printf(", model space scale %g (coordinates are as in the file)", scale);
-	printf(", %lld entities read\n\n", (long long)json_int(o, "read", 0));
+	printf("%s: unit %s", t->file, m->unit ? m->unit : "not named");
+	if (m->unit_in_mm > 0)
+		printf(" (%g mm)", m->unit_in_mm);
+	if (m->scale != 1)
+		printf(", model space scale %g (coordinates are as in the file)", m->scale);
+	printf(", %d entities read\n\n", m->n);
 	printf("%5s  %-16s %-14s %-7s%-6s  %s\n", "", "kind", "name", "DE", "order", "points");
-	json_array_foreach(json_object_get(o, "entities"), k, row) print_entity(row);
-	json_array_foreach(json_object_get(o, "skipped"), k, row)
-	        printf("%sskipped: %lld of type %lld from D%lld: %s\n", k ? "" : "\n",
-	               (long long)json_int(row, "count", 0), (long long)json_int(row, "type", 0),
-	               (long long)json_int(row, "first_de", 0), json_text(row, "reason", ""));
+	for (int k = 0; k < m->n; k++)
+		if (is_told(t, &m->entities[k])) {
+			json_t *row = entity_json(&m->entities[k], t->whole_areas);
+			print_entity(row);
+			json_decref(row);
+		}
+	for (int k = 0; k < m->n_skipped; k++)
+		printf("%sskipped: %d of type %d from D%d: %s\n", k ? "" : "\n",
+		       m->skipped[k].count, m->skipped[k].type, m->skipped[k].first_de,
+		       m->skipped[k].reason);
 }
 
 static int info_run(const struct invocation *i)
 {
 	struct model m;
 	struct entity *chosen;
+	int rc = 0;
 
 	if (i->n_words != 1)
 		return status_exit(report_error(&i->report, ST_PARAMETER, "name one file"));
 	enum status st = reading_open(&m, i->words[0], &chosen, &i->report);
 	if (st != ST_OK)
 		return status_exit(st);
-	json_t *o = info_json(&m, chosen, m.file ? m.file : i->words[0]);
-	int rc = 0;
-	if (i->json)
-		rc = print_json(json_incref(o));
-	else {
-		print_info(o);
+	struct telling t = { &m, chosen, m.file ? m.file : i->words[0], false };
+	t.whole_areas = is_small(&t);
+	if (i->json) {
+		rc = print_info_json(&t);
+	} else {
+		print_info(&t);
 		for (int k = 0; k < m.n_warnings; k++)
 			report_warning(&i->report, "%s", m.warnings[k]);
 	}
-	json_decref(o);
 	model_finish(&m);
 	return rc;
 }

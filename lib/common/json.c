@@ -184,6 +184,11 @@ static void write_value(struct text *t, const json_t *v, int depth, bool indente
 	}
 }
 
+void json_write_at(struct text *t, const json_t *v, int depth)
+{
+	write_value(t, v, depth, true);
+}
+
 char *json_write(const json_t *o, bool indented)
 {
 	struct text t = { 0 };

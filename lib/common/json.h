@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "report.h"
+#include "text.h"
 
 /* A member as text, or fallback where it is missing, null or of another type. Borrowed from o. */
 const char *json_text(const json_t *o, const char *key, const char *fallback);
@@ -28,6 +29,9 @@ json_t *json_real_or_null(double x);
  */
 enum status json_parse_object(const char *text, size_t n, const char *what, json_t **out,
                               const struct report *r);
+
+/* Append v, indented as it stands within `depth` brackets. */
+void json_write_at(struct text *t, const json_t *v, int depth);
 
 /* Write o with shortest round-trip numbers, members in order of insertion; caller frees. */
 char *json_write(const json_t *o, bool indented);

@@ -16,6 +16,10 @@ enum status base_parse(struct model *m, const char *bytes, size_t n, const char 
 /* The whole model as text; out->failed where memory ran out. */
 void base_format(const struct model *m, struct text *out);
 
+/* The same piece by piece, for models whose text is longer than memory: piece 0 is what stands before the
+ * entities, piece k the kth entity. */
+void base_format_piece(const struct model *m, int piece, struct text *out);
+
 /* Write as a whole file. */
 enum status base_write(const struct model *m, const char *path, const struct report *r);
 

@@ -167,14 +167,21 @@ static void add_header(struct text *t, const struct model *m, int n)
 	text_addf(t, "\nentities %d\n", n);
 }
 
+void base_format_piece(const struct model *m, int piece, struct text *out)
+{
+	if (piece == 0) {
+		add_header(out, m, m->n);
+		add_attributes(out, "", m->attributes, m->n_attributes);
+		return;
+	}
+	const struct entity *e = &m->entities[piece - 1];
+	add_entity(out, e, e->used, e->surface + 1);
+}
+
 void base_format(const struct model *m, struct text *out)
 {
-	add_header(out, m, m->n);
-	add_attributes(out, "", m->attributes, m->n_attributes);
-	for (int i = 0; i < m->n; i++) {
-		const struct entity *e = &m->entities[i];
-		add_entity(out, e, e->used, e->surface + 1);
-	}
+	for (int piece = 0; piece <= m->n; piece++)
+		base_format_piece(m, piece, out);
 }
 
 void base_format_entity(const struct model *m, const struct entity *e, struct text *out)
@@ -188,11 +195,23 @@ void base_format_entity(const struct model *m, const struct entity *e, struct te
 
 enum status base_write(const struct model *m, const char *path, const struct report *r)
 {
+	struct whole_file f;
 	struct text t = { 0 };
-	base_format(m, &t);
-	enum status st =
-	        t.failed ? report_error(r, ST_RESOURCE, "cannot write '%s': no memory", path)
-	                 : file_write(path, t.s, t.n, r);
+	enum status st = whole_file_create(&f, path, r);
+	if (st != ST_OK)
+		return st;
+	for (int piece = 0; piece <= m->n && !t.failed; piece++) {
+		text_reset(&t);
+		base_format_piece(m, piece, &t);
+		if (!t.failed)
+			fwrite(t.s, 1, t.n, f.stream); /* the commit looks for errors */
+	}
+	if (t.failed) {
+		whole_file_abandon(&f);
+		st = report_error(r, ST_RESOURCE, "cannot write '%s': no memory", path);
+	} else {
+		st = whole_file_commit(&f, r);
+	}
 	text_finish(&t);
 	return st;
 }
