@@ -11,6 +11,7 @@ static const struct param contours_params[] = {
 	  .unit = "file",
 	  .help = "height of the design waterline: stations are measured below it" },
 	PARAM_ROWS_LEVEL_TOLERANCE,
+	PARAM_ROW_TRIMMED,
 	PARAM_ROW_GAP,
 	PARAM_ROW_SVG,
 	PARAM_ROW_VIEW("three-quarter"),
@@ -154,7 +155,7 @@ const struct worker worker = {
 	.version = 3,
 	.help = "Traces all curves in which planes or cylinders cut the surfaces, joined over their "
 	        "borders, with area, centroid and girth of sections; stations, waterlines and "
-	        "buttocks of a ship as a lines plan. Trims are ignored.",
+	        "buttocks of a ship as a lines plan.",
 	.scene = true,
 	.params = contours_params,
 	.outputs = contours_outputs,

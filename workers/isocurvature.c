@@ -26,6 +26,7 @@ static const struct param isocurvature_params[] = {
 	  .max = LEVELS_MAX,
 	  .help = "how many values from the first to the last (11 where not given)" },
 	PARAM_ROWS_LEVEL_TOLERANCE,
+	PARAM_ROW_TRIMMED,
 	PARAM_ROW_GAP,
 	PARAM_ROW_CREASE,
 	PARAM_ROW_SVG,
@@ -156,7 +157,7 @@ const struct worker worker = {
 	.title = "lines of constant curvature",
 	.version = 2,
 	.help = "Traces all curves on a surface along which a curvature keeps its value, as splines in "
-	        "u,v and in space with their checked error; Gaussian curvature 0: the parabolic lines. Trims are ignored.",
+	        "u,v and in space with their checked error; Gaussian curvature 0: the parabolic lines.",
 	.scene = true,
 	.params = isocurvature_params,
 	.outputs = isocurvature_outputs,

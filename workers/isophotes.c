@@ -33,6 +33,7 @@ static const struct param isophotes_params[] = {
 	  .help = "how many angles (17 where not given: every 10 degrees)" },
 	PARAM_ROWS_LIGHT("0", "0"),
 	PARAM_ROWS_LEVEL_TOLERANCE,
+	PARAM_ROW_TRIMMED,
 	PARAM_ROW_GAP,
 	PARAM_ROW_CREASE,
 	PARAM_ROW_SVG,
@@ -153,7 +154,7 @@ const struct worker worker = {
 	.title = "isophotes",
 	.version = 3,
 	.help = "Traces all curves on a surface along which the normal keeps its angle to the "
-	        "light, as splines in u,v and in space with their checked error. Trims are ignored.",
+	        "light, as splines in u,v and in space with their checked error.",
 	.scene = true,
 	.params = isophotes_params,
 	.outputs = isophotes_outputs,

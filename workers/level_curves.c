@@ -197,12 +197,17 @@ static enum status boxes_add(const struct level_curves *c, int i, int surface, s
 	return st;
 }
 
-static enum status surface_add(const struct work *w, int i, struct model *m)
+static enum status surface_add(const struct level_work *l, const struct work *w, int i,
+                               struct model *m)
 {
 	struct entity e;
 	entity_init(&e, ENTITY_SURFACE);
 	e.used = true;
 	enum status st = surface_copy(&e.geometry, w->surfaces[i]);
+	if (st == ST_OK && l->trimmed) {
+		st = trim_copy(&e.trim, &w->entities[i]->trim);
+		e.trims = e.trim.n;
+	}
 	if (st == ST_OK && w->entities[i]->name)
 		st = model_set_text(&e.name, w->entities[i]->name);
 	if (st == ST_OK)
@@ -255,7 +260,7 @@ static enum status curves_fill(const struct level_curves *c, struct model *m)
 		st = t.failed ? ST_RESOURCE : model_set_attribute(m, "tolerance", t.s);
 	text_finish(&t);
 	for (int s = 0; st == ST_OK && s < w->n_surfaces; s++)
-		st = surface_add(w, s, m);
+		st = surface_add(c->level, w, s, m);
 	for (int i = 0; st == ST_OK && i < c->n; i++)
 		st = value_fill(c, i, m);
 	return st;

@@ -97,13 +97,26 @@ static double gap_read(const struct work *w, double tolerance)
 	return fmax(gap_share * box_diagonal(&all), 4 * tolerance);
 }
 
+static void warn_of_trims(const struct level_work *l, const struct work *w)
+{
+	int trimmed = 0;
+	for (int s = 0; s < l->n_surfaces; s++)
+		trimmed += w->entities[s]->trim.n > 0;
+	if (trimmed > 0 && !l->trimmed)
+		report_warning(&w->report,
+		               "trims are ignored: the curves are those of %d whole surfaces",
+		               l->n_surfaces);
+}
+
 static enum status faces_make(struct level_work *l, const struct work *w)
 {
 	struct level_face *faces = calloc((size_t)l->n_surfaces, sizeof *faces);
 	if (!faces)
 		return ST_RESOURCE;
-	for (int i = 0; i < l->n_surfaces; i++)
+	for (int i = 0; i < l->n_surfaces; i++) {
 		faces[i].surface = w->surfaces[i];
+		faces[i].trim = l->trimmed ? &w->entities[i]->trim : NULL;
+	}
 	enum status st = level_faces_create(&l->faces, faces, l->n_surfaces, l->gap);
 	free(faces);
 	return st;
@@ -114,13 +127,6 @@ enum status level_work_init(struct level_work *l, const struct work *w,
                             double tolerance)
 {
 	const size_t all = (size_t)n * w->n_surfaces;
-	int trimmed = 0;
-	for (int s = 0; s < w->n_surfaces; s++)
-		trimmed += w->entities[s]->trim.n > 0;
-	if (trimmed)
-		report_warning(&w->report,
-		               "trims are ignored: the curves are those of %d whole surfaces",
-		               w->n_surfaces);
 	*l = (struct level_work){ .n = n, .n_surfaces = w->n_surfaces };
 	l->levels = calloc(all, sizeof *l->levels);
 	l->results = calloc(all, sizeof *l->results);
@@ -136,6 +142,8 @@ enum status level_work_init(struct level_work *l, const struct work *w,
 	memcpy(l->fields, fields, sizeof *fields * (size_t)n);
 	l->tolerance = tolerance;
 	l->gap = gap_read(w, tolerance);
+	l->trimmed = work_flag(w, "trimmed");
+	warn_of_trims(l, w);
 	enum status st = levels_create(l, w, fields, tolerance);
 	size_t wanted = (UNITS_WANTED + all - 1) / all;
 	for (int s = 0; st == ST_OK && s < w->n_surfaces; s++) {
@@ -208,15 +216,20 @@ static double crease_of(const struct level_work *l, const struct work *w)
 	                                                     : work_real(w, "crease") * M_PI / 180;
 }
 
-/* The results of field i become chains over all surfaces. */
+/* The results of field i lose what trims cut away, and become chains over all surfaces. */
 static enum status value_join(struct level_work *l, struct work *w, int i)
 {
 	const struct level_joining how = { &l->fields[i], l->tolerance,
 		                           crease_of(l, w) * M_PI / 180 };
+	struct level_result *x = l->results + (size_t)i * l->n_surfaces;
 	enum status st = l->faces ? ST_OK : faces_make(l, w);
+	for (int s = 0; st == ST_OK && s < l->n_surfaces; s++)
+		st = work_cancelled(w) ? ST_CANCELLED
+		                       : level_clip(l->faces, s, l->tolerance, &x[s]);
 	if (st == ST_OK)
-		st = level_chains_join(l->faces, &how, l->results + (size_t)i * l->n_surfaces,
-		                       &l->chains[i]);
+		st = level_chains_join(l->faces, &how, x, &l->chains[i]);
+	if (st == ST_CANCELLED)
+		return st;
 	return st == ST_OK ? st : report_error(&w->report, st, "no memory to join curves");
 }
 

@@ -15,6 +15,7 @@ struct level_work {
 	struct level_head *heads;   /* owned, n: what the units of each field begin with */
 	struct level_field *fields; /* owned, n */
 	double tolerance, gap;
+	bool trimmed; /* trims cut the curves */
 	struct level_faces *faces;    /* owned */
 	struct level_result *results; /* owned, n x n_surfaces; filled by level_work_join */
 	struct level_chains *chains;  /* owned, n; likewise */
@@ -55,6 +56,9 @@ double level_work_tolerance(const struct work *w);
 	{ .name = "tolerance-uv", .type = PARAM_REAL, .def = "0", .min = 0, .max = INFINITY,       \
 	  .help = "largest distance from the exact curve in the surface's parameters, too (0: "    \
 		  "not asked for)" }
+#define PARAM_ROW_TRIMMED                                                                          \
+	{ .name = "trimmed", .type = PARAM_FLAG, .def = "yes",                                     \
+	  .help = "leave out what the trims of the surfaces cut away" }
 #define PARAM_ROW_GAP                                                                              \
 	{ .name = "gap", .type = PARAM_REAL, .min = 0, .max = INFINITY, .unit = "file",            \
 	  .help = "neighbouring surfaces share a border where theirs are no farther apart, and "   \

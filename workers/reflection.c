@@ -58,6 +58,7 @@ static const struct param reflection_params[] = {
 	  .help = "distance from one light line to the next (an eighth of the diagonal of the "
 	          "surfaces' box where not given)" },
 	PARAM_ROWS_LEVEL_TOLERANCE,
+	PARAM_ROW_TRIMMED,
 	PARAM_ROW_GAP,
 	PARAM_ROW_CREASE,
 	PARAM_ROW_SVG,
@@ -255,7 +256,7 @@ const struct worker worker = {
 	.title = "reflection lines",
 	.version = 3,
 	.help = "Traces reflection lines, highlight lines or silhouettes of surfaces, as splines in "
-	        "u,v and in space with their checked error. Trims are ignored.",
+	        "u,v and in space with their checked error.",
 	.scene = true,
 	.params = reflection_params,
 	.outputs = reflection_outputs,

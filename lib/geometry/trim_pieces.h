@@ -1,5 +1,5 @@
-/* trim_pieces.h - trimming loops as pieces that run one way in u and one way in v. Private to this
- * folder. */
+/* trim_pieces.h - trimming loops as pieces that run one way in u and one way in v. Private to
+ * geometry. */
 #ifndef BATTEN_TRIM_PIECES_H
 #define BATTEN_TRIM_PIECES_H
 

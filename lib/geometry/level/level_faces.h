@@ -24,6 +24,15 @@ enum status level_faces_create(struct level_faces **out, const struct level_face
                                double gap);
 void level_faces_destroy(struct level_faces *f); /* NULL is fine */
 
+/*
+ * Take from a result on face i what its trims cut away. What is left ends on the trim, to 1e-12 of
+ * the domain; where a branch runs within the tolerance of a trimming curve, it is on the face.
+ * A touch parts nothing. Undecided boxes wholly outside go, too.
+ * tolerance: of the curves, in space. Errors: ST_RESOURCE.
+ */
+enum status level_clip(const struct level_faces *f, int i, double tolerance,
+                       struct level_result *x);
+
 /* One branch in a chain. */
 struct level_part {
 	int face;
