@@ -12,6 +12,9 @@
 
 enum { FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000, PARTS_MAX = 8 };
 
+/* The last step to the curve is below this part of the tolerances. */
+#define STEP_SHARE 0.01
+
 /* The error goes with the fifth power of the length; parts are made for one so much larger. */
 #define ERROR_ORDER  5
 #define ERROR_MARGIN 1.8
@@ -34,6 +37,7 @@ struct follower {
 	struct prover prover;
 	const double *c; /* f in the prover's box, and its error */
 	double error;
+	double sure; /* a step across that is far below the tolerances */
 };
 
 static double dot(const double *a, const double *b)
@@ -75,9 +79,10 @@ static void station_find(const struct follower *w, double uv[2], struct station 
 		uv[other] = y;
 		level_field_at(w->t, uv[0], uv[1], &x);
 		double move = x.f / (other == 0 ? x.fu : x.fv);
+		const bool small = fabs(move) < w->sure && y - move >= lo && y - move <= hi;
 		/* so small that it can be made without looking again */
-		if (fabs(move) < 1e-11 || (fabs(move) < 1e-7 && fabs(move) >= last)) {
-			if (fabs(move) < 1e-9) {
+		if (small || fabs(move) < 1e-11 || (fabs(move) < 1e-7 && fabs(move) >= last)) {
+			if (small || fabs(move) < 1e-9) {
 				uv[other] = y - move;
 				for (int d = 0; d < 3; d++)
 					x.p[d] -= move * (other == 0 ? x.su[d] : x.sv[d]);
@@ -155,7 +160,6 @@ static void proof_improve(struct proof *p, const struct proof *by)
 static void tiny_prove(const struct follower *w, const struct station *a, const struct station *b,
                        double size, struct proof *best)
 {
-	struct field_point at;
 	struct proof_middle mid = { .uv = { 0, 0 } };
 	struct proof proof;
 	double size_uv = 0;
@@ -173,8 +177,7 @@ static void tiny_prove(const struct follower *w, const struct station *a, const 
 			x.p[e][d] = e ? b->p[d] : a->p[d];
 			x.dp[e][d] = b->p[d] - a->p[d];
 		}
-	level_field_at(w->t, mid.uv[0], mid.uv[1], &at);
-	level_fit_middle(&at, &mid);
+	level_fit_middle(w->t, &mid);
 	if (!level_prove(&w->prover, &x, &mid, &proof))
 		return;
 	proof.space += 3 * size;
@@ -350,6 +353,9 @@ void level_arc_follow(struct tracer *t, const struct cell_range *box, const doub
 	w.c = c;
 	w.error = error;
 	level_prover_init(&w.prover, t, box, c, error);
+	const double first[2] = { w.prover.shape->first[1 - along], w.prover.width[1 - along] };
+	w.sure = STEP_SHARE *
+	         smaller(t->level->tolerance / first[0], t->level->tolerance_uv / first[1]);
 	fit(&w, &s[0], &s[1], 0);
 	struct arc *arc = list_add(&t->arcs, sizeof *arc);
 	if (!arc) {

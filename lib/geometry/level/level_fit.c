@@ -46,16 +46,20 @@ static void without(double a[3], const double b[3], double per)
 		a[d] -= part * b[d];
 }
 
-void level_fit_middle(const struct field_point *x, struct proof_middle *mid)
+static void middle_set(const struct place *q, struct proof_middle *mid)
 {
-	double t[3];
-	for (int d = 0; d < 3; d++)
-		t[d] = x->fu * x->sv[d] - x->fv * x->su[d];
-	const double per_square = 1 / (dot(t, t) + 1e-300);
-	mid->across[0] = dot(x->sv, t) * per_square;
-	mid->across[1] = -dot(x->su, t) * per_square;
+	const struct field_point *x = &q->x;
+	mid->across[0] = dot(x->sv, q->along) * q->per_square;
+	mid->across[1] = -dot(x->su, q->along) * q->per_square;
 	for (int d = 0; d < 3; d++)
 		mid->step[d] = x->su[d] * mid->across[0] + x->sv[d] * mid->across[1];
+}
+
+void level_fit_middle(const struct tracer *t, struct proof_middle *mid)
+{
+	struct place q;
+	place_set(t, mid->uv, &q);
+	middle_set(&q, mid);
 }
 
 static double fit_uv(const struct place *q, const struct station *a, const struct station *b,
@@ -147,7 +151,7 @@ bool level_fit(const struct tracer *t, const struct station *a, const struct sta
 			x->dp[e][d] = space[e] * s[e]->dp[d];
 		}
 	}
-	level_fit_middle(&q.x, mid);
+	middle_set(&q, mid);
 	match(&q, mid->uv, x, uv_length, space, mid->match);
 	for (int d = 0; d < 2; d++)
 		uv[d] = mid->uv[d] + q.step[d];

@@ -9,10 +9,8 @@
 void level_globalise(const struct level_surface *s, int patch, const double uv[2], double out[2])
 {
 	int place[2] = { patch / s->net.spans[1], patch % s->net.spans[1] };
-	for (int d = 0; d < 2; d++) {
-		double lo = s->net.breaks[d][place[d]], hi = s->net.breaks[d][place[d] + 1];
-		out[d] = uv[d] <= 0.5 ? lo + (hi - lo) * uv[d] : hi - (hi - lo) * (1 - uv[d]);
-	}
+	for (int d = 0; d < 2; d++)
+		out[d] = level_global(s->net.breaks[d] + place[d], uv[d]);
 }
 
 void joint_end_get(const struct joint *j, size_t end, struct joint_end *out)

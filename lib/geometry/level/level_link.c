@@ -32,17 +32,43 @@ static int edge_compare(const struct edge_end *a, const struct edge_end *b)
 	return a->along - b->along;
 }
 
-static int edge_end_compare(const void *x, const void *y)
+/* Of two ends on one edge. */
+static bool edge_end_before(const struct edge_end *a, const struct edge_end *b)
 {
-	const struct edge_end *a = x, *b = y;
-	int c = edge_compare(a, b);
-	if (c != 0)
-		return c;
 	if (a->side != b->side)
-		return a->side - b->side;
-	if (a->at != b->at)
-		return a->at < b->at ? -1 : 1;
-	return a->end < b->end ? -1 : 1;
+		return a->side < b->side;
+	return a->at != b->at ? a->at < b->at : a->end < b->end;
+}
+
+/*
+ * Edge after edge, on each those from below first, rising: by counting, then inserting. Errors: ST_RESOURCE.
+ */
+static enum status edge_ends_sort(const struct level_surface *s, const struct edge_end *e, size_t n,
+                                  struct edge_end *out)
+{
+	const size_t edges = (size_t)(s->net.spans[0] + 1) * s->net.spans[1],
+	             all = edges + (size_t)(s->net.spans[1] + 1) * s->net.spans[0];
+	size_t *first = calloc(all + 1, sizeof *first);
+	if (!first)
+		return ST_RESOURCE;
+	for (size_t i = 0; i < n; i++)
+		first[edges * e[i].d + (size_t)e[i].line * s->net.spans[1 - e[i].d] + e[i].along +
+		      1]++;
+	for (size_t i = 0; i < all; i++)
+		first[i + 1] += first[i];
+	/* first[k] becomes where edge k ends */
+	for (size_t i = 0; i < n; i++) {
+		size_t k =
+		        edges * e[i].d + (size_t)e[i].line * s->net.spans[1 - e[i].d] + e[i].along;
+		size_t to = first[k]++;
+		for (; to > 0 && edge_compare(&out[to - 1], &e[i]) == 0 &&
+		       edge_end_before(&e[i], &out[to - 1]);
+		     to--)
+			out[to] = out[to - 1];
+		out[to] = e[i];
+	}
+	free(first);
+	return ST_OK;
 }
 
 static bool uv_jumps(const struct joint *j, size_t a, size_t b)
@@ -249,7 +275,8 @@ static enum status link_rest(struct joint *j, struct rest *r, size_t n)
 enum status level_link(struct joint *j)
 {
 	const struct bezier_net *net = &j->level->surface->net;
-	struct edge_end *e = malloc(sizeof *e * (2 * j->n_strands + 1));
+	struct edge_end *e = calloc(4 * j->n_strands + 1, sizeof *e);
+	struct edge_end *sorted = e ? e + 2 * j->n_strands : NULL;
 	struct rest *rest = malloc(sizeof *rest * (2 * j->n_strands + 1));
 	enum status st = ST_RESOURCE;
 	size_t n = 0, n_rest = 0;
@@ -265,8 +292,9 @@ enum status level_link(struct joint *j)
 			line = 0;
 		e[n++] = (struct edge_end){ x->d, line, place[1 - x->d], !x->upper, x->at, i };
 	}
-	qsort(e, n, sizeof *e, edge_end_compare);
-	link_edges(j, e, (int)n);
+	if (edge_ends_sort(j->level->surface, e, n, sorted) != ST_OK)
+		goto out;
+	link_edges(j, sorted, (int)n);
 	for (size_t i = 0; i < 2 * j->n_strands; i++) {
 		const struct strand_end *x = &j->strands[i / 2].end[i % 2];
 		if (x->kind == STRAND_CLOSED || j->links[i].kind != LINK_NONE)

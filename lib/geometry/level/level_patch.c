@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* Memory on the stack that serves patches of common degrees, in doubles, and with few arcs. */
-enum { ROOM = 8192, LENT_PIECES = 64, LENT_ARCS = 16 };
+enum { ROOM = 8192, LENT_PIECES = 64, LENT_ARCS = 16, FEW_ENDS = 32 };
 
 /* Between cells one of which stayed undecided, ends are paired that lie this near. */
 static const double near_on_line = 1e-7;
@@ -55,6 +55,22 @@ static int end_compare(const void *x, const void *y)
 	return 2 * a->arc + a->end - (2 * b->arc + b->end);
 }
 
+/* Mostly there are few. */
+static void ends_sort(struct arc_end *e, int n)
+{
+	if (n > FEW_ENDS) {
+		qsort(e, n, sizeof *e, end_compare);
+		return;
+	}
+	for (int i = 1; i < n; i++) {
+		const struct arc_end x = e[i];
+		int k = i;
+		for (; k > 0 && end_compare(&x, &e[k - 1]) < 0; k--)
+			e[k] = e[k - 1];
+		e[k] = x;
+	}
+}
+
 /* What an arc's end leads to: another end as 2 arc + end, or one of these. */
 enum { LINK_LOOSE = -1, LINK_BORDER = -2 };
 
@@ -97,8 +113,7 @@ static void link_arcs(struct tracer *t, struct patch_links *k)
 {
 	struct arc_end *e = t->ends.p;
 	int n = (int)t->ends.n;
-	if (n > 0)
-		qsort(e, n, sizeof *e, end_compare);
+	ends_sort(e, n);
 	for (int i = 0; i < n; i++) {
 		k->to[2 * e[i].arc + e[i].end] = LINK_LOOSE;
 		k->end[2 * e[i].arc + e[i].end] = &e[i];

@@ -372,8 +372,8 @@ struct station {
 bool level_fit(const struct tracer *t, const struct station *a, const struct station *b,
                double length, struct piece *x, struct proof_middle *mid, double uv[2], double *off);
 
-/* mid->uv set, x the field there: the rest but how the parameters match. */
-void level_fit_middle(const struct field_point *x, struct proof_middle *mid);
+/* mid->uv set: the rest but how the parameters match. */
+void level_fit_middle(const struct tracer *t, struct proof_middle *mid);
 
 /* level_sample.c */
 void level_proof_tables(struct proof_tables *p);
@@ -450,6 +450,13 @@ void piece_reverse(struct piece *p);
 static inline double level_range(const struct level_surface *s, int d)
 {
 	return s->net.breaks[d][s->net.spans[d]] - s->net.breaks[d][0];
+}
+
+/* A parameter of the surface from that of a patch, and its breaks. */
+static inline double level_global(const double *breaks, double x)
+{
+	const double lo = breaks[0], hi = breaks[1];
+	return x <= 0.5 ? lo + (hi - lo) * x : hi - (hi - lo) * (1 - x);
 }
 
 /* Parameters of the surface from those of the patch. */

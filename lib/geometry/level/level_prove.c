@@ -34,6 +34,11 @@ enum { NODES = PROOF_NODES, GROUPS = PROOF_GROUPS };
 /* A rest below this part of what it is added to is small enough. */
 #define REST_SHARE 0.01
 
+static double length3(const double *a)
+{
+	return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
+
 static double power(double x, int n)
 {
 	double r = 1;
@@ -165,56 +170,6 @@ void level_prover_init(struct prover *p, const struct tracer *t, const struct ce
 	p->error = t->bound.error + (degree[0] + degree[1] + 8) * 4 * UNIT_ROUNDOFF * t->bound.size;
 }
 
-/* What the interpolants leave out, of f and of w (P - S + f M). */
-struct rest {
-	double f, s;
-};
-
-/* From the sizes on the ellipse with that sum of half axes. */
-static struct rest rest_at(const struct prover *p, const double cubic[2][4],
-                           const struct proof_middle *mid, double across, double rho)
-{
-	const struct level *l = p->t->level;
-	const struct level_surface *surface = l->surface;
-	double sigma = 0.5 * (rho + 1 / rho), growth[2], reach;
-	const double square = sigma * sigma / 4, *match = mid->match; /* of t (1 - t) */
-	reach = 0.5 * sigma +
-	        square * (fabs(match[0]) + sigma * fabs(match[1]) + square * fabs(match[2]));
-	for (int d = 0; d < 2; d++) {
-		double beyond = larger(0, larger(-cubic[d][0], cubic[d][0] - 1));
-		growth[d] =
-		        1 + 2 * (beyond +
-		                 reach * (fabs(cubic[d][1]) +
-		                          reach * (fabs(cubic[d][2]) + reach * fabs(cubic[d][3]))));
-	}
-	double rest = 4 / (power(rho, NODES - 1) * (rho - 1));
-	double f =
-	        rest * p->t->most * power(growth[0], l->degree[0]) * power(growth[1], l->degree[1]);
-	/* P is a cubic, its points no further from the patch's first than the patch */
-	double weight = p->shape->weight[1] * power(growth[0], surface->net.order[0] - 1) *
-	                power(growth[1], surface->net.order[1] - 1);
-	return (struct rest){ f, rest * weight * p->shape->radius *
-		                                 (p->rational ? 1 + 2 * power(sigma, 3) : 1) +
-		                         f * across * (p->rational ? weight : 1) };
-}
-
-/* From the largest ellipse, or a smaller one where that leaves too much: with high degrees the sizes grow
- * faster on it than the rest falls. sum: what the interpolants themselves come to. */
-static struct rest rest_least(const struct prover *p, const double cubic[2][4],
-                              const struct proof_middle *mid, double across, double span,
-                              const double sum[4])
-{
-	double rho = smaller(4 / larger(2 * span, 1e-3), RHO_MAX);
-	struct rest best = rest_at(p, cubic, mid, across, rho);
-	while ((best.f > REST_SHARE * sum[3] || best.s > REST_SHARE * (sum[0] + sum[1] + sum[2])) &&
-	       (rho /= 1.5) > RHO_MIN) {
-		struct rest x = rest_at(p, cubic, mid, across, rho);
-		best.f = smaller(best.f, x.f);
-		best.s = smaller(best.s, x.s);
-	}
-	return best;
-}
-
 /* Of the second derivatives, taken along a and b: the largest in the cell, or that far outside. */
 static double second_along(const struct prover *p, const double a[2], const double b[2],
                            double more)
@@ -276,37 +231,86 @@ static void course_set(const struct prover *p, const struct piece *x,
 	}
 }
 
-/* The step across, and how much its slope and its length can differ elsewhere. */
-struct step {
-	double bent, turned, length, uv;
+/* What the interpolants leave out, of f and of w (P - S + f M). */
+struct rest {
+	double f, s;
 };
 
-/* On the piece and as far across from it as the curve may be. */
-static struct step step_bounds(const struct prover *p, const struct course *c,
-                               const struct proof_middle *mid, double f)
+/* From the sizes on the ellipse with that sum of half axes. */
+static struct rest rest_at(const struct prover *p, const double cubic[2][4],
+                           const struct proof_middle *mid, double across, double rho)
+{
+	const struct level *l = p->t->level;
+	const struct level_surface *surface = l->surface;
+	double sigma = 0.5 * (rho + 1 / rho), growth[2], reach;
+	const double square = sigma * sigma / 4, *match = mid->match; /* of t (1 - t) */
+	reach = 0.5 * sigma +
+	        square * (fabs(match[0]) + sigma * fabs(match[1]) + square * fabs(match[2]));
+	for (int d = 0; d < 2; d++) {
+		double beyond = larger(0, larger(-cubic[d][0], cubic[d][0] - 1));
+		growth[d] =
+		        1 + 2 * (beyond +
+		                 reach * (fabs(cubic[d][1]) +
+		                          reach * (fabs(cubic[d][2]) + reach * fabs(cubic[d][3]))));
+	}
+	double rest = 4 / (power(rho, NODES - 1) * (rho - 1));
+	double f =
+	        rest * p->t->most * power(growth[0], l->degree[0]) * power(growth[1], l->degree[1]);
+	/* P is a cubic, its points no further from the patch's first than the patch */
+	double weight = p->shape->weight[1] * power(growth[0], surface->net.order[0] - 1) *
+	                power(growth[1], surface->net.order[1] - 1);
+	return (struct rest){ f, rest * weight * p->shape->radius *
+		                                 (p->rational ? 1 + 2 * power(sigma, 3) : 1) +
+		                         f * across * (p->rational ? weight : 1) };
+}
+
+/* From the largest ellipse, or a smaller one where that leaves too much: with high degrees the sizes grow
+ * faster on it than the rest falls. sum: what the interpolants themselves come to. */
+static struct rest rest_least(const struct prover *p, const struct course *c,
+                              const struct proof_middle *mid, double step, const double sum[4])
+{
+	const double span = larger(c->span[0], c->span[1]);
+	const double tolerance = p->t->level->tolerance, weight = p->shape->weight[0];
+	const double enough_f = REST_SHARE * larger(sum[3], tolerance / step),
+	             enough_s = REST_SHARE * larger(length3(sum), tolerance * weight);
+	double rho = smaller(4 / larger(2 * span, 1e-3), RHO_MAX);
+	struct rest best = rest_at(p, c->cubic, mid, step, rho);
+	while ((best.f > enough_f || best.s > enough_s) && (rho /= 1.5) > RHO_MIN) {
+		struct rest x = rest_at(p, c->cubic, mid, step, rho);
+		best.f = smaller(best.f, x.f);
+		best.s = smaller(best.s, x.s);
+	}
+	return best;
+}
+
+/* How much the step across can differ from that in the middle, on the piece and as far across from it as the
+ * curve may be: its slope, its length. */
+struct change {
+	double bent, turned;
+};
+
+static struct change change_bounds(const struct prover *p, const struct course *c,
+                                   const struct proof_middle *mid, double f)
 {
 	const struct level *l = p->t->level;
 	const double w[2] = { fabs(mid->across[0]), fabs(mid->across[1]) };
-	const double *second = p->shape->second, *m = mid->step;
+	const double *second = p->shape->second;
 	double away[2], outside = c->outside;
 	for (int d = 0; d < 2; d++) {
 		away[d] = c->away[d] + ASIDE * f * w[d];
 		outside += ASIDE * f * w[d] / (p->box.hi[d] - p->box.lo[d]);
 	}
 	const double more = power(1 + 2 * outside, l->degree[0] + l->degree[1]);
-	return (struct step){
+	return (struct change){
 		2 * p->error * (w[0] * l->degree[0] + w[1] * l->degree[1]) +
 		        slope_change(p, c->cubic, mid, f, more),
 		w[0] * (second[0] * away[0] + second[1] * away[1]) +
 		        w[1] * (second[1] * away[0] + second[2] * away[1]),
-		sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]),
-		length2(w[0] * p->width[0], w[1] * p->width[1]),
 	};
 }
 
 /* The largest in a group of nodes, of the tolerances. */
-static double used_at(const struct prover *p, const struct step *step, const double v[NODES][4],
-                      int g)
+static double used_at(const struct prover *p, double step_uv, const double v[NODES][4], int g)
 {
 	const struct level *l = p->t->level;
 	double most = 0, f = 0;
@@ -315,7 +319,7 @@ static double used_at(const struct prover *p, const struct step *step, const dou
 		f = larger(f, fabs(v[j][3]));
 	}
 	return larger(sqrt(most) / (p->shape->weight[1] * l->tolerance),
-	              f * step->uv / l->tolerance_uv);
+	              f * step_uv / l->tolerance_uv);
 }
 
 bool level_prove(const struct prover *p, const struct piece *x, const struct proof_middle *mid,
@@ -327,34 +331,32 @@ bool level_prove(const struct prover *p, const struct piece *x, const struct pro
 	double v[NODES][4], sum[4];
 	struct course c;
 	course_set(p, x, mid, &c);
-	struct step step = step_bounds(p, &c, mid, p->error);
+	const double step = length3(mid->step),
+	             step_uv = length2(mid->across[0] * p->width[0], mid->across[1] * p->width[1]);
 	out->used = 0;
 	out->bent = false;
 	/* the parameter stays in [0, 1] */
 	if (!(fabs(q[0]) + fabs(q[1]) + fabs(q[2]) / 4 < 0.9))
 		return false;
 	level_sample(p, x, mid, 0, 1, v);
-	out->used = used_at(p, &step, v, 0);
-	out->bent = !(step.bent < BENT_MAX);
-	if (out->bent || out->used > USED_MAX)
+	out->used = used_at(p, step_uv, v, 0);
+	if (out->used > USED_MAX)
 		return false;
 	level_sample(p, x, mid, 1, GROUPS, v);
 	level_sample_sums(&surface->proof, v, sum);
-	struct rest rest =
-	        rest_least(p, c.cubic, mid, step.length, larger(c.span[0], c.span[1]), sum);
+	struct rest rest = rest_least(p, &c, mid, step, sum);
 	const double f = sum[3] + rest.f + p->error;
-	const double e = (sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) + rest.s) /
-	                         p->shape->weight[0] +
+	const double e = (length3(sum) + rest.s) / p->shape->weight[0] +
 	                 4 * (surface->of_points.error + 16 * UNIT_ROUNDOFF * surface->reach) +
-	                 2 * p->error * step.length;
-	step = step_bounds(p, &c, mid, f);
-	out->bent = !(step.bent < BENT_MAX);
+	                 2 * p->error * step;
+	const struct change change = change_bounds(p, &c, mid, f);
+	out->bent = !(change.bent < BENT_MAX);
 	if (out->bent)
 		return false;
-	out->space = e + f * (step.length * step.bent + step.turned) / (1 - step.bent);
-	out->uv = f * step.uv / (1 - step.bent);
-	out->rounding[0] = p->error * step.length;
-	out->rounding[1] = p->error * step.uv;
+	out->space = e + f * (step * change.bent + change.turned) / (1 - change.bent);
+	out->uv = f * step_uv / (1 - change.bent);
+	out->rounding[0] = p->error * step;
+	out->rounding[1] = p->error * step_uv;
 	out->used = larger(out->space / l->tolerance, out->uv / l->tolerance_uv);
 	return isfinite(out->space) && isfinite(out->uv);
 }
