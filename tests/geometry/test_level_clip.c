@@ -1,6 +1,5 @@
 /* test_level_clip.c - curves on trimmed faces: chords and arcs by formula, lengths by dense samples. */
-#include "level_check.h"
-#include "level_faces.h"
+#include "level_scene.h"
 #include "trim_shapes.h"
 
 static const double tolerance = 1e-5;
@@ -258,14 +257,102 @@ static void test_samples(void **state)
 	surface_finish(&s);
 }
 
+/* A surface with its trims in other parameters. */
+static void reparametrise(struct surface *s, struct trim *t)
+{
+	const double to[2][2] = { { 10, 14 }, { -1, 0.5 } };
+	for (int i = 0; i < t->n; i++)
+		for (int k = 0; k < t->loops[i].n; k++) {
+			struct curve *c = &t->loops[i].curves[k];
+			for (int p = 0; p < c->n; p++)
+				for (int d = 0; d < 2; d++) {
+					const double *from = s->domain[d];
+					const double scale =
+					        (to[d][1] - to[d][0]) / (from[1] - from[0]);
+					double *x = &c->points[4 * p + d];
+					*x = to[d][0] * c->points[4 * p + 3] +
+					     (*x - from[0] * c->points[4 * p + 3]) * scale;
+				}
+		}
+	for (int d = 0; d < 2; d++)
+		surface_reparametrise(s, d, to[d][0], to[d][1]);
+}
+
+/* Cut by loops in two faces that fit: joined they have the curves of the whole. */
+static void test_fitting(void **state)
+{
+	(void)state;
+	static struct scene one, two;
+	struct surface s;
+	assert_int_equal(shape_make(&s, 4, 12, shape_wavy), ST_OK);
+	one.n = 1;
+	two.n = 2;
+	assert_int_equal(surface_copy(&one.faces[0], &s), ST_OK);
+	for (int i = 0; i < 2; i++) {
+		assert_int_equal(surface_copy(&two.faces[i], &s), ST_OK);
+		trim_add_flower(&two.trims[i], i == 0, 0.5, 0.5, 0.35, 0.1, 7);
+	}
+	reparametrise(&two.faces[1], &two.trims[1]);
+	for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
+		scene_trace(&one, &fields[i], tolerance, 1e-4);
+		scene_trace(&two, &fields[i], tolerance, 1e-4);
+		same_chains(&one, &two);
+		assert_true(two.chains.joins > 0);
+		assert_int_equal(two.chains.creases, 0);
+		assert_true(two.chains.step < 4 * tolerance);
+		results_finish(&one);
+		results_finish(&two);
+	}
+	scene_finish(&one);
+	scene_finish(&two);
+	surface_finish(&s);
+}
+
+/* A torus in two halves, each trimmed to it: one along the seam, the other over it. */
+static void test_seam(void **state)
+{
+	(void)state;
+	static struct scene one, two;
+	struct surface s = torus();
+	const double(*d)[2] = (const double(*)[2])s.domain;
+	const double at[] = { d[0][0] + 0.3 * (d[0][1] - d[0][0]),
+		              d[0][0] + 0.7 * (d[0][1] - d[0][0]) };
+	one.n = 1;
+	two.n = 2;
+	assert_int_equal(surface_copy(&one.faces[0], &s), ST_OK);
+	for (int i = 0; i < 2; i++)
+		assert_int_equal(surface_copy(&two.faces[i], &s), ST_OK);
+	trim_add_box(&two.trims[0], true, at[0], d[1][0], at[1], d[1][1]);
+	trim_add_box(&two.trims[1], true, d[0][0], d[1][0], at[0], d[1][1]);
+	trim_add_box(&two.trims[1], true, at[1], d[1][0], d[0][1], d[1][1]);
+	const struct level_field round[] = {
+		{ .kind = LEVEL_PLANE, .direction = { 0, 0, 1 }, .value = 0.31 },
+		{ .kind = LEVEL_PLANE, .direction = { 0.1, 1, 0.2 }, .value = 0.1 },
+		{ .kind = LEVEL_ISOPHOTE, .direction = { 0.3, 0.2, 1 }, .value = 0.5 },
+		{ .kind = LEVEL_SILHOUETTE, .direction = { 0.8, 0.36, 0.48 } },
+		{ .kind = LEVEL_CURVATURE, .quantity = QUANTITY_GAUSSIAN, .value = 0.05 },
+	};
+	for (size_t i = 0; i < sizeof round / sizeof *round; i++) {
+		scene_trace(&one, &round[i], tolerance, 1e-4);
+		scene_trace(&two, &round[i], tolerance, 1e-4);
+		same_chains(&one, &two);
+		assert_int_equal(two.chains.creases, 0);
+		assert_true(two.chains.step < 1e-9);
+		results_finish(&one);
+		results_finish(&two);
+	}
+	scene_finish(&one);
+	scene_finish(&two);
+	surface_finish(&s);
+}
+
 int main(void)
 {
 
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_chords),
-		cmocka_unit_test(test_arcs),
-		cmocka_unit_test(test_along),
-		cmocka_unit_test(test_samples),
+		cmocka_unit_test(test_chords),  cmocka_unit_test(test_arcs),
+		cmocka_unit_test(test_along),   cmocka_unit_test(test_samples),
+		cmocka_unit_test(test_fitting), cmocka_unit_test(test_seam),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

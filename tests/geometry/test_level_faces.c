@@ -1,117 +1,5 @@
 /* test_level_faces.c - curves over several faces: the same as on the whole surface, however it is cut. */
-#include "arbitrary.h"
-#include "level_check.h"
-#include "level_faces.h"
-
-enum { FACES_MAX = 600 };
-
-/* Faces with results of one field, joined. */
-struct scene {
-	struct surface faces[FACES_MAX];
-	struct level_result results[FACES_MAX];
-	int n;
-	struct level_chains chains;
-	double length;
-};
-
-static void scene_finish(struct scene *x)
-{
-	for (int i = 0; i < x->n; i++) {
-		surface_finish(&x->faces[i]);
-		level_result_finish(&x->results[i]);
-	}
-	level_chains_finish(&x->chains);
-	x->n = 0;
-}
-
-static void results_finish(struct scene *x)
-{
-	for (int i = 0; i < x->n; i++)
-		level_result_finish(&x->results[i]);
-	level_chains_finish(&x->chains);
-}
-
-static void trace_face(const struct surface *s, const struct level_field *field, double tolerance,
-                       struct level_result *out)
-{
-	struct level *l;
-	assert_int_equal(level_create(&l, s, field, tolerance, NULL), ST_OK);
-	assert_int_equal(shape_trace_level(l, out, NULL), ST_OK);
-	level_destroy(l);
-}
-
-static void scene_trace(struct scene *x, const struct level_field *field, double tolerance,
-                        double gap)
-{
-	struct level_face faces[FACES_MAX];
-	struct level_faces *f;
-	const struct level_joining how = { field, tolerance, 1e-3 };
-	for (int i = 0; i < x->n; i++) {
-		faces[i] = (struct level_face){ &x->faces[i], NULL };
-		trace_face(&x->faces[i], field, tolerance, &x->results[i]);
-	}
-	assert_int_equal(level_faces_create(&f, faces, x->n, gap), ST_OK);
-	assert_int_equal(level_chains_join(f, &how, x->results, &x->chains), ST_OK);
-	level_faces_destroy(f);
-	x->length = 0;
-	size_t parts = 0;
-	for (int i = 0; i < x->n; i++) {
-		x->length += x->results[i].length;
-		parts += x->results[i].n_branches;
-	}
-	/* every branch stands in one chain */
-	size_t in_chains = 0;
-	for (size_t k = 0; k < x->chains.n; k++) {
-		assert_int_equal(x->chains.list[k].first, in_chains);
-		in_chains += x->chains.list[k].n;
-	}
-	assert_int_equal(in_chains, parts);
-}
-
-/* Another form of the same face; the normal stays. */
-static void face_change(struct surface *s, int how)
-{
-	struct surface r;
-	if (how & 1) {
-		assert_int_equal(surface_exchange(s), ST_OK);
-		surface_reverse(s, 1);
-	}
-	if (how & 2) {
-		surface_reverse(s, 0);
-		surface_reverse(s, 1);
-	}
-	if (how & 4) {
-		surface_reparametrise(s, 0, -3, 5);
-		surface_reparametrise(s, 1, 100, 100.5);
-	}
-	if (how & 8) {
-		assert_int_equal(surface_elevate(&r, s, how & 1, 1), ST_OK);
-		surface_finish(s);
-		*s = r;
-	}
-}
-
-/* Cut into n x m faces at these places, each in a form of its own. */
-static void scene_cut(struct scene *x, const struct surface *s, const double *u, int n,
-                      const double *v, int m, bool change)
-{
-	x->n = 0;
-	for (int i = 0; i < n; i++)
-		for (int j = 0; j < m; j++, x->n++) {
-			const double range[2][2] = { { u[i], u[i + 1] }, { v[j], v[j + 1] } };
-			assert_int_equal(surface_part(&x->faces[x->n], s, range), ST_OK);
-			if (change)
-				face_change(&x->faces[x->n], (7 * i + 5 * j + i * j) % 16);
-		}
-}
-
-/* Joined to as much as the whole surface has. */
-static void same_chains(const struct scene *a, const struct scene *b)
-{
-	assert_int_equal(a->chains.n, b->chains.n);
-	assert_int_equal(a->chains.n_closed, b->chains.n_closed);
-	assert_true(fabs(a->length - b->length) < 1e-4 * (1 + a->length));
-}
+#include "level_scene.h"
 
 static const struct level_field fields[] = {
 	{ .kind = LEVEL_PLANE, .direction = { 0, 0, 1 }, .value = 0.31 },
@@ -143,17 +31,7 @@ static void test_whole(void **state)
 	scene_cut(&one, &s, all, 1, all, 1, false);
 	scene_cut(&many, &s, u, 4, v, 3, true);
 	for (int i = 0; i < N_FIELDS; i++) {
-		scene_trace(&one, &fields[i], 1e-5, 1e-4);
-		scene_trace(&many, &fields[i], 1e-5, 1e-4);
-		assert_int_equal(one.chains.n, one.results[0].n_branches);
-		assert_int_equal(one.chains.joins, 0);
-		same_chains(&one, &many);
-		assert_true(many.chains.joins >= 5);
-		assert_int_equal(many.chains.creases, 0);
-		assert_int_equal(many.chains.nodes, 0);
-		assert_true(many.chains.step < 1e-9);
-		results_finish(&one);
-		results_finish(&many);
+		compare(&one, &many, &fields[i]);
 	}
 	scene_finish(&one);
 	scene_finish(&many);
@@ -212,11 +90,82 @@ static void test_borders(void **state)
 	}
 }
 
+static const struct level_field round_fields[] = {
+	{ .kind = LEVEL_PLANE, .direction = { 0, 0, 1 }, .value = 0.31 },
+	{ .kind = LEVEL_PLANE, .direction = { 0, 0, 1 }, .value = 0 },
+	{ .kind = LEVEL_PLANE, .direction = { 1, 0, 0 }, .value = 0 },
+	{ .kind = LEVEL_PLANE, .direction = { 1, 1, 0 }, .value = 0 },
+	{ .kind = LEVEL_PLANE, .direction = { 0.48, 0.6, 0.64 }, .value = 0.2 },
+	{ .kind = LEVEL_CYLINDER, .direction = { 0, 0, 1 }, .point = { 0.2, 0.1, 0 }, .value = 1 },
+	{ .kind = LEVEL_ISOPHOTE, .direction = { 0, 0, 1 }, .value = 0.3 },
+	{ .kind = LEVEL_ISOPHOTE, .direction = { 0.3, 0.2, 1 }, .value = 0.5 },
+	{ .kind = LEVEL_SILHOUETTE, .direction = { 0.8, 0.36, 0.48 } },
+	{ .kind = LEVEL_SILHOUETTE, .direction = { 0, 1, 0 } },
+	{ .kind = LEVEL_EYE, .eye = { 30, 18, 14 } },
+	{ .kind = LEVEL_HIGHLIGHT, .direction = { 0.2, 1, 0 }, .point = { 1, 0, 10 } },
+	{ .kind = LEVEL_REFLECTION,
+	  .direction = { 0, 1, 0.1 },
+	  .point = { 1, 0, 20 },
+	  .eye = { 30, 18, 14 } },
+};
+
+/* A sphere and a torus: through poles, over seams, along borders. */
+static void test_round(void **state)
+{
+	(void)state;
+	static struct scene one, many;
+	for (int shape = 0; shape < 2; shape++) {
+		struct surface s = shape ? torus() : sphere();
+		double u[6], v[6];
+		for (int i = 0; i < 6; i++) {
+			u[i] = s.domain[0][0] +
+			       (s.domain[0][1] - s.domain[0][0]) * (i == 3 ? 0.5 : i / 5.0);
+			v[i] = s.domain[1][0] + (s.domain[1][1] - s.domain[1][0]) * i / 5.0;
+		}
+		const double whole[2][2] = { { s.domain[0][0], s.domain[0][1] },
+			                     { s.domain[1][0], s.domain[1][1] } };
+		scene_cut(&one, &s, whole[0], 1, whole[1], 1, false);
+		scene_cut(&many, &s, u, 5, v, 5, true);
+		for (size_t i = 0; i < sizeof round_fields / sizeof *round_fields; i++)
+			compare(&one, &many, &round_fields[i]);
+		scene_finish(&one);
+		scene_finish(&many);
+		surface_finish(&s);
+	}
+}
+
+/* Five hundred faces. */
+static void test_many(void **state)
+{
+	(void)state;
+	static struct scene one, many;
+	struct surface s = wavy();
+	const double all[2] = { 0, 1 };
+	double u[26], v[21];
+	for (int i = 0; i < 26; i++)
+		u[i] = i / 25.0;
+	for (int i = 0; i < 21; i++)
+		v[i] = i / 20.0;
+	scene_cut(&one, &s, all, 1, all, 1, false);
+	scene_cut(&many, &s, u, 25, v, 20, true);
+	const struct level_field zero = { .kind = LEVEL_PLANE, .direction = { 0, 0, 1 } };
+	compare(&one, &many, &fields[0]);
+	compare(&one, &many, &fields[3]);
+	/* 25 crossings of four, 20 of three on the border, 4 of two in the corners; all but those two
+	 * lie in faces or on their borders */
+	compare(&one, &many, &zero);
+	scene_finish(&one);
+	scene_finish(&many);
+	surface_finish(&s);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_whole),
 		cmocka_unit_test(test_borders),
+		cmocka_unit_test(test_round),
+		cmocka_unit_test(test_many),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

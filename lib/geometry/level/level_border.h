@@ -60,4 +60,8 @@ double level_value(const struct level_field *f, const struct surface *s, double 
 enum status level_doubles_drop(const struct level_faces *f, double tolerance,
                                struct level_result *results);
 
+/* Take out branches no longer than half the tolerance that lie on shared borders. Errors: ST_RESOURCE. */
+enum status level_specks_drop(const struct level_faces *f, double tolerance,
+                              struct level_result *results);
+
 #endif

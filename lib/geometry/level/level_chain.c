@@ -210,6 +210,8 @@ enum status level_chains_join(const struct level_faces *f, const struct level_jo
 	bool *done = NULL;
 	*out = (struct level_chains){ .n = 0 };
 	enum status st = level_doubles_drop(f, how->tolerance, results);
+	if (st == ST_OK)
+		st = level_specks_drop(f, how->tolerance, results);
 	for (int i = 0; i < f->n; i++)
 		n += results[i].n_branches;
 	if (st == ST_OK)

@@ -1,9 +1,13 @@
-/* level_double.c - a curve along a border that two faces share is found on both: keep one. */
+/* level_double.c - a curve along a border that two faces share is found on both, and one through the
+ * corner of a third is a point there: keep one. */
 #include "level_border.h"
 #include "level_part.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* Shorter ones, in tolerances, are points: where a curve goes through a corner of a face. */
+#define SPECK_SHARE 0.5
 
 /* A branch that runs along a border all the way. */
 struct runner {
@@ -257,6 +261,38 @@ static enum status result_close(struct level_result *x)
 	}
 	level_result_replace(x, &kept);
 	return ST_OK;
+}
+
+/* Both its ends lie on borders that other faces share, and nothing is between them. */
+static bool is_speck(const struct level_faces *f, int face, const struct level_branch *b,
+                     double tolerance)
+{
+	if (b->closed || b->length > SPECK_SHARE * tolerance)
+		return false;
+	for (int e = 0; e < 2; e++) {
+		bool shared = false;
+		const struct vec3 p = curve_point(&b->space, b->space.domain[e]);
+		if (!at_border(f, face, p, f->gap, &shared) || !shared)
+			return false;
+	}
+	return true;
+}
+
+enum status level_specks_drop(const struct level_faces *f, double tolerance,
+                              struct level_result *results)
+{
+	enum status st = ST_OK;
+	for (int i = 0; st == ST_OK && i < f->n; i++) {
+		bool any = false;
+		for (size_t b = 0; b < results[i].n_branches; b++)
+			if (is_speck(f, i, &results[i].branches[b], tolerance)) {
+				branch_finish(&results[i].branches[b]);
+				any = true;
+			}
+		if (any)
+			st = result_close(&results[i]);
+	}
+	return st;
 }
 
 enum status level_doubles_drop(const struct level_faces *f, double tolerance,

@@ -219,7 +219,8 @@ bool chain_ends_meet(const struct joiner *j, const struct chain_end *a, const st
 {
 	const bool place_alone = ways[j->how->field->kind].over_creases;
 	const bool same = (a->k ^ 1) == b->k;
-	if ((a->crossing && a->inside) || (b->crossing && b->inside))
+	if ((a->crossing && a->inside) || (b->crossing && b->inside) ||
+	    (a->crossing && b->crossing && a->face == b->face))
 		return false;
 	if (same && !(a->length > SHORT_GAPS * j->faces->gap))
 		return false;

@@ -148,7 +148,11 @@ static void face_edges(struct level_faces *f, int i)
 {
 	const struct surface *s = f->faces[i].surface;
 	const struct trim *t = f->faces[i].trim;
-	for (int d = 0; !f->tests[i] && d < 2; d++) {
+	bool outer = false;
+	for (int l = 0; f->tests[i] && l < t->n; l++)
+		outer |= t->loops[l].outer;
+	/* holes alone leave the sides */
+	for (int d = 0; !outer && d < 2; d++) {
 		if (surface_closed(s, d, closed_share * surface_size(s)))
 			continue;
 		for (int end = 0; end < 2; end++)

@@ -67,7 +67,7 @@ struct level_joining {
 /*
  * Join the branches of one field on all faces, results[i] those on face i. A branch that runs along
  * a border which another face has one along, too, stays with the first of them alone; results are
- * changed where that is so. Planes and cylinders go over creases; all other curves end there on both
+ * changed where that is so; specks, no longer than half the tolerance and on shared borders, go, too. Planes and cylinders go over creases; all other curves end there on both
  * sides, and so do those whose sign turns with the normal where two faces' normals are opposite.
  * The chains depend on nothing but faces, field and results. Errors: ST_RESOURCE.
  */
