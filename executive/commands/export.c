@@ -17,8 +17,13 @@ static const struct option_row export_options[] = {
 	  "the size)" },
 	{ "--angle", NULL, "DEG",
 	  "largest angle between normals along an edge of a triangle (default: 15)" },
+	{ "--join", NULL, "D",
+	  "borders of surfaces nearer than this are one (default: a ten-thousandth of the size)" },
 	{ 0 },
 };
+
+/* Borders listed; of more the longest are. */
+enum { BORDERS_MOST = 8 };
 
 /* What is to be written, from all the files named. */
 struct collection {
@@ -59,8 +64,7 @@ static enum status collect(struct collection *c, struct model *m, const struct e
 	for (int k = 0; k < m->n && st == ST_OK; k++) {
 		struct entity *e = &m->entities[k];
 		const bool meant = chosen ? e == chosen : e->number > 0;
-		const bool needed =
-		        c->format->all && (chosen ? k == base : e->number == 0);
+		const bool needed = c->format->all && (chosen ? k == base : e->number == 0);
 		place[k] = -1;
 		if (meant && !c->format->takes(e)) {
 			c->left_out++;
@@ -113,12 +117,12 @@ static int count_numbered(const struct model *m)
 	return n;
 }
 
-/* An option's number in (0, most], or `fallback`. */
+/* An option's number in (0, most], or 0 where it is not given. */
 static enum status positive(const struct invocation *i, const char *option, double most,
-                            double fallback, double *out)
+                            double *out)
 {
 	const char *text = invocation_value(i, option);
-	*out = fallback;
+	*out = 0;
 	if (!text)
 		return ST_OK;
 	if (!number_parse(text, out) || !(*out > 0) || *out > most)
@@ -127,34 +131,119 @@ static enum status positive(const struct invocation *i, const char *option, doub
 	return ST_OK;
 }
 
+/* The surface that a part of the mesh was made of. */
+static const struct entity *surface_of(const struct collection *c, int part)
+{
+	for (int k = 0; k < c->all.n; k++)
+		if (c->all.entities[k].kind == ENTITY_SURFACE && part-- == 0)
+			return &c->all.entities[k];
+	return NULL;
+}
+
+static void print_surface(const char *before, const struct entity *e)
+{
+	printf("%s%d", before, e->number);
+	if (e->name)
+		printf(" (%s)", e->name);
+	else if (e->de)
+		printf(" (D%d)", e->de);
+}
+
+/* A gap where borders disagree is much longer than wide. */
+static bool is_gap(const struct mesh_border *b)
+{
+	return b->width < 0.01 * b->length;
+}
+
+static void tell_borders(const struct collection *c, const struct mesh_figures *f)
+{
+	const struct mesh_looks *x = &f->looks;
+	for (int k = 0; k < x->n_borders && k < BORDERS_MOST; k++) {
+		const struct mesh_border *b = &x->borders[k];
+		const struct entity *e[2] = { surface_of(c, b->parts[0]),
+			                      b->parts[1] < 0 ? NULL : surface_of(c, b->parts[1]) };
+		printf("  %s of %d edges, %.4g long, %.2g wide, at %.6g %.6g %.6g, ",
+		       is_gap(b) ? "gap" : "border", b->edges, b->length, b->width, b->at.x,
+		       b->at.y, b->at.z);
+		print_surface("surface ", e[0]);
+		if (e[1])
+			print_surface(" and ", e[1]);
+		putchar('\n');
+	}
+	if (x->n_borders > BORDERS_MOST)
+		printf("  and %d shorter ones\n", x->n_borders - BORDERS_MOST);
+}
+
 static void tell(const struct collection *c, const char *to, const struct mesh_figures *f)
 {
 	printf("%s: %d %s", to, count_numbered(&c->all),
 	       count_numbered(&c->all) == 1 ? "entity" : "entities");
-	if (c->format->write_mesh) {
-		printf(", %d triangles within %.4g and %g degrees", f->triangles, f->tolerance,
-		       f->angle);
-		if (f->open_edges)
-			printf(", %d edges open", f->open_edges);
-		else
-			printf(", closed");
+	if (!c->format->write_mesh) {
+		putchar('\n');
+		return;
 	}
+	const struct mesh_looks *x = &f->looks;
+	printf(", %d triangles within %.4g and %g degrees", f->triangles, f->tolerance, f->angle);
+	if (x->open)
+		printf(", %d edges open in %d %s", x->open, x->n_borders,
+		       x->n_borders == 1 ? "border" : "borders");
+	else
+		printf(", closed");
+	if (x->multiple)
+		printf(", %d edges of three triangles or more", x->multiple);
+	if (x->turned)
+		printf(", %d edges between sides that disagree", x->turned);
 	putchar('\n');
+	tell_borders(c, f);
+}
+
+static json_t *borders_json(const struct collection *c, const struct mesh_looks *x)
+{
+	json_t *list = json_array();
+	for (int k = 0; k < x->n_borders; k++) {
+		const struct mesh_border *b = &x->borders[k];
+		json_t *o = json_object(), *at = json_array(), *surfaces = json_array();
+		const double p[3] = { b->at.x, b->at.y, b->at.z };
+		json_set_int(o, "edges", b->edges);
+		json_set_number(o, "length", b->length);
+		json_set_number(o, "width", b->width);
+		for (int d = 0; d < 3; d++)
+			json_array_append_new(at, json_real(p[d]));
+		json_object_set_new(o, "at", at);
+		for (int i = 0; i < 2 && b->parts[i] >= 0; i++)
+			json_array_append_new(surfaces,
+			                      json_integer(surface_of(c, b->parts[i])->number));
+		json_object_set_new(o, "surfaces", surfaces);
+		json_array_append_new(list, o);
+	}
+	return list;
 }
 
 static json_t *result_json(const struct collection *c, const char *to, const struct mesh_figures *f)
 {
 	const bool mesh = c->format->write_mesh;
+	const struct mesh_looks *x = &f->looks;
+	const struct {
+		const char *name;
+		int value;
+	} counts[] = { { "triangles", f->triangles },
+		       { "points", f->points },
+		       { "open_edges", x->open },
+		       { "multiple_edges", x->multiple },
+		       { "turned_edges", x->turned } };
 	json_t *o = json_object();
 	json_set_text(o, "file", to);
 	json_set_text(o, "format", c->format->extension + 1);
 	json_set_int(o, "entities", count_numbered(&c->all));
 	json_set_int(o, "left_out", c->left_out);
-	json_object_set_new(o, "triangles", mesh ? json_integer(f->triangles) : json_null());
-	json_object_set_new(o, "points", mesh ? json_integer(f->points) : json_null());
-	json_object_set_new(o, "open_edges", mesh ? json_integer(f->open_edges) : json_null());
+	for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
+		json_object_set_new(o, counts[k].name,
+		                    mesh ? json_integer(counts[k].value) : json_null());
+	json_object_set_new(o, "borders", mesh ? borders_json(c, x) : json_null());
 	json_set_number(o, "tolerance", mesh ? f->tolerance : NAN);
 	json_set_number(o, "angle", mesh ? f->angle : NAN);
+	json_set_number(o, "join", mesh ? f->join : NAN);
+	json_set_number(o, "gap", mesh ? f->gap : NAN);
 	return o;
 }
 
@@ -162,10 +251,13 @@ static enum status export_all(const struct invocation *i, struct collection *c, 
                               struct mesh_figures *f)
 {
 	const struct report *r = &i->report;
-	double tolerance, angle;
-	enum status st = positive(i, "--tolerance", INFINITY, 0, &tolerance);
+	struct mesh_wishes wishes = { 0 };
+	struct working working;
+	enum status st = positive(i, "--tolerance", INFINITY, &wishes.tolerance);
 	if (st == ST_OK)
-		st = positive(i, "--angle", 180, 15, &angle);
+		st = positive(i, "--angle", 180, &wishes.angle);
+	if (st == ST_OK)
+		st = positive(i, "--join", INFINITY, &wishes.join);
 	for (int k = 0; k < i->n_words && st == ST_OK; k++)
 		st = collect_name(c, i->words[k], r);
 	if (st != ST_OK)
@@ -176,7 +268,11 @@ static enum status export_all(const struct invocation *i, struct collection *c, 
 		                    c->format->holds);
 	if (c->left_out)
 		report_warning(r, "%d left out: '%s' holds %s", c->left_out, to, c->format->holds);
-	return model_write(&c->all, c->format, to, tolerance, angle, f, r);
+	working_begin(&working, "making triangles for", to, -1);
+	wishes.progress = &working.progress;
+	st = model_write(&c->all, c->format, to, &wishes, f, r);
+	working_end(&working);
+	return st == ST_CANCELLED ? report_error(r, st, "cancelled; '%s' is not written", to) : st;
 }
 
 static int export_run(const struct invocation *i)
@@ -198,6 +294,7 @@ static int export_run(const struct invocation *i)
 		rc = print_json(result_json(&c, to, &figures));
 	else if (st == ST_OK)
 		tell(&c, to, &figures);
+	mesh_figures_finish(&figures);
 	model_finish(&c.all);
 	return rc;
 }

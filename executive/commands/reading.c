@@ -32,13 +32,6 @@ void interrupt_end(const struct interrupt *x)
 	sigaction(SIGINT, &x->before, NULL);
 }
 
-struct meter {
-	double began, drawn;
-	const char *name;
-	bool shown;
-	int fd; /* for programs */
-};
-
 static double now(void)
 {
 	struct timespec t;
@@ -49,12 +42,12 @@ static double now(void)
 
 static void draw(void *data, double fraction)
 {
-	struct meter *m = data;
+	struct working *m = data;
 	double t = now();
 
 	if (t - m->began < 0.5 || t - m->drawn < 0.1)
 		return;
-	fprintf(stderr, "\rreading %s %3.0f %%\033[K", m->name, 100 * fraction);
+	fprintf(stderr, "\r%s %s %3.0f %%\033[K", m->what, m->name, 100 * fraction);
 	m->drawn = t;
 	m->shown = true;
 }
@@ -62,13 +55,31 @@ static void draw(void *data, double fraction)
 /* Who listens may be gone: then SIGPIPE ends this process, whose work nobody wants. */
 static void tell(void *data, double fraction)
 {
-	struct meter *m = data;
+	struct working *m = data;
 	double t = now();
 
 	if (t - m->drawn < 0.1)
 		return;
 	dprintf(m->fd, "%.4f\n", fraction);
 	m->drawn = t;
+}
+
+void working_begin(struct working *x, const char *what, const char *name, int fd)
+{
+	*x = (struct working){ .began = now(), .what = what, .name = name, .fd = fd };
+	x->progress = (struct progress){ .step = fd >= 0                 ? tell
+		                                 : isatty(STDERR_FILENO) ? draw
+		                                                         : NULL,
+		                         .data = x,
+		                         .stop = &interrupted };
+	interrupt_begin(&x->interrupt);
+}
+
+void working_end(struct working *x)
+{
+	interrupt_end(&x->interrupt);
+	if (x->shown)
+		fputs("\r\033[K", stderr);
 }
 
 enum status reading_open(struct model *m, const char *argument, struct entity **chosen,
@@ -86,18 +97,10 @@ enum status reading_open_telling(struct model *m, const char *argument, int fd,
 	*chosen = NULL;
 	if (st != ST_OK)
 		return report_error(r, st, "memory ran out");
-	struct meter meter = { .began = now(), .name = path_file_name(path), .fd = fd };
-	struct progress p = { .step = fd >= 0                 ? tell
-		                      : isatty(STDERR_FILENO) ? draw
-		                                              : NULL,
-		              .data = &meter,
-		              .stop = &interrupted };
-	struct interrupt interrupt;
-	interrupt_begin(&interrupt);
-	st = model_read(m, path, &p, r);
-	interrupt_end(&interrupt);
-	if (meter.shown)
-		fputs("\r\033[K", stderr);
+	struct working working;
+	working_begin(&working, "reading", path_file_name(path), fd);
+	st = model_read(m, path, &working.progress, r);
+	working_end(&working);
 	if (st == ST_OK && selector) {
 		st = model_find(m, selector, chosen, r);
 		if (st != ST_OK)

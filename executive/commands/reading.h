@@ -23,6 +23,20 @@ struct interrupt {
 	struct sigaction before;
 };
 
+/* What takes time: how far it is, drawn on standard error when that is a terminal and after half a
+ * second; Ctrl-C stops it. */
+struct working {
+	struct progress progress; /* to hand on */
+	double began, drawn;
+	const char *what, *name; /* borrowed: "reading", "hull.igs" */
+	bool shown;
+	int fd; /* a fraction a line goes there; -1: none */
+	struct interrupt interrupt;
+};
+
+void working_begin(struct working *x, const char *what, const char *name, int fd);
+void working_end(struct working *x);
+
 void interrupt_begin(struct interrupt *x);
 bool interrupt_noted(void);
 void interrupt_end(const struct interrupt *x);

@@ -203,6 +203,7 @@ enum status files_export(struct act *a, const struct arguments *given)
 {
 	char *path = act_path(a, argument_text(given, "to"));
 	const struct model_format *format = path ? model_format_find(path, &a->report) : NULL;
+	const struct mesh_wishes wishes = { 0 };
 	struct mesh_figures figures = { 0 };
 	struct model m;
 	int *ids = NULL, n = 0, left_out = 0;
@@ -223,11 +224,12 @@ enum status files_export(struct act *a, const struct arguments *given)
 			report_warning(&a->report, "%d left out: '%s' holds %s", left_out,
 			               path_file_name(path), format->holds);
 		if (st == ST_OK)
-			st = model_write(&m, format, path, 0, 15, &figures, &a->report);
+			st = model_write(&m, format, path, &wishes, &figures, &a->report);
 		if (st == ST_OK)
 			act_say(a, "%s: %d entities", path_file_name(path), m.n);
 		model_finish(&m);
 	}
+	mesh_figures_finish(&figures);
 	free(ids);
 	free(path);
 	return st;

@@ -4,8 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of the diagonal of the box of all surfaces. */
-static const double default_tolerance = 1e-3, join_within = 1e-4;
+/* Of the diagonal of the box of all surfaces; what is finer than `finest` drowns in rounding. */
+static const double default_tolerance = 1e-3, default_join = 1e-4, finest = 1e-11;
+
+static const double default_angle = 15;
 
 /* The surfaces of a model and what they are called; both arrays have room for all entities. */
 struct chosen {
@@ -37,36 +39,69 @@ static enum status choose(const struct model *m, struct chosen *x)
 	return st;
 }
 
+static void settle(const struct mesh_wishes *w, double size, struct mesh_figures *out,
+                   const struct report *r)
+{
+	out->tolerance = w->tolerance > 0 ? w->tolerance : default_tolerance * size;
+	out->angle = w->angle > 0 ? w->angle : default_angle;
+	out->join = w->join > 0 ? w->join : default_join * size;
+	if (out->tolerance < finest * size) {
+		report_warning(
+		        r, "a tolerance of %g is less than numbers of this size hold; %g is taken",
+		        out->tolerance, finest * size);
+		out->tolerance = finest * size;
+	}
+	/* beyond the size nothing changes; beyond all bounds nothing can be computed */
+	out->tolerance = fmin(out->tolerance, fmax(size, finest));
+}
+
+bool mesh_stopped(const struct mesh_labels *l)
+{
+	return l->stop && atomic_load_explicit(l->stop, memory_order_relaxed);
+}
+
+enum status mesh_commit(struct whole_file *f, const struct mesh_labels *l, const struct report *r)
+{
+	if (!mesh_stopped(l))
+		return whole_file_commit(f, r);
+	whole_file_abandon(f);
+	return ST_CANCELLED;
+}
+
+void mesh_figures_finish(struct mesh_figures *f)
+{
+	mesh_looks_finish(&f->looks);
+	*f = (struct mesh_figures){ 0 };
+}
+
 enum status export_mesh(const struct model *m, mesh_writer *write, const char *path,
-                        double tolerance, double angle, struct mesh_figures *out,
+                        const struct mesh_wishes *w, struct mesh_figures *out,
                         const struct report *r)
 {
+	const struct progress *p = w->progress;
+	const struct tessellate_watch watch = { p ? p->step : NULL, p ? p->data : NULL,
+		                                p ? p->stop : NULL };
 	struct chosen x;
 	struct mesh mesh = { 0 };
+	*out = (struct mesh_figures){ 0 };
 	enum status st = choose(m, &x);
-	if (st != ST_OK)
+	if (st != ST_OK) {
 		report_error(r, st, "memory ran out");
-	if (!(tolerance > 0))
-		tolerance = default_tolerance * x.size;
-	const struct tessellate_limits limits = { .chord = tolerance,
-		                                  .angle = angle * M_PI / 180,
-		                                  .orient = true,
-		                                  .join = join_within * x.size };
-	if (st == ST_OK) {
-		st = tessellate(&mesh, x.faces, x.n, &limits, NULL, r);
-		if (st == ST_OK)
-			st = mesh_open_edges(&mesh, &out->open_edges);
-		if (st == ST_RESOURCE)
-			report_error(r, st,
-			             "memory ran out making triangles; give a larger "
-			             "--tolerance");
+	} else {
+		settle(w, x.size, out, r);
+		const struct tessellate_limits limits = { .chord = out->tolerance,
+			                                  .angle = out->angle * M_PI / 180,
+			                                  .join = out->join,
+			                                  .orient = true };
+		st = tessellate(&mesh, x.faces, x.n, &limits, &watch, r);
 	}
+	if (st == ST_OK && mesh_look(&out->looks, &mesh) != ST_OK)
+		st = report_error(r, ST_RESOURCE, "memory ran out");
 	if (st == ST_OK) {
-		const struct mesh_labels labels = { m->unit, x.names };
+		const struct mesh_labels labels = { m->unit, x.names, watch.stop };
 		out->triangles = mesh.n_triangles;
 		out->points = mesh.n_points;
-		out->tolerance = tolerance;
-		out->angle = angle;
+		out->gap = mesh.gap;
 		st = write(&mesh, &labels, path, r);
 	}
 	mesh_finish(&mesh);

@@ -57,10 +57,9 @@ const struct model_format *model_format_find(const char *path, const struct repo
 }
 
 enum status model_write(const struct model *m, const struct model_format *format, const char *path,
-                        double tolerance, double angle, struct mesh_figures *f,
-                        const struct report *r)
+                        const struct mesh_wishes *w, struct mesh_figures *f, const struct report *r)
 {
 	if (format->write_mesh)
-		return export_mesh(m, format->write_mesh, path, tolerance, angle, f, r);
+		return export_mesh(m, format->write_mesh, path, w, f, r);
 	return format->write(m, path, r);
 }

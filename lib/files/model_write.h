@@ -17,9 +17,9 @@ struct model_format {
 const struct model_format *model_format_find(const char *path, const struct report *r);
 
 /* Write what the format takes; what it does not must have been left out by the caller.
- * tolerance 0, angle: as export_mesh; *f is set for triangles only. */
+ * *f is set for triangles only; the caller finishes it. */
 enum status model_write(const struct model *m, const struct model_format *format, const char *path,
-                        double tolerance, double angle, struct mesh_figures *f,
+                        const struct mesh_wishes *w, struct mesh_figures *f,
                         const struct report *r);
 
 #endif

@@ -1,5 +1,4 @@
 /* obj.c - triangles as Wavefront OBJ. */
-#include "file.h"
 #include "mesh_file.h"
 #include "number.h"
 #include "text.h"
@@ -37,7 +36,7 @@ enum status obj_write(const struct mesh *m, const struct mesh_labels *l, const c
 		put_vector(f, "v", m->points[k]);
 	for (int k = 0; k < m->n_normals; k++)
 		put_vector(f, "vn", m->normals[k]);
-	for (int k = 0; k < m->n_parts; k++) {
+	for (int k = 0; k < m->n_parts && !mesh_stopped(l); k++) {
 		const struct mesh_part *p = &m->parts[k];
 		put_name(f, l->names ? l->names[k] : NULL, k + 1);
 		for (int t = p->first; t < p->first + p->count; t++) {
@@ -46,5 +45,5 @@ enum status obj_write(const struct mesh *m, const struct mesh_labels *l, const c
 			        c[1].point + 1, c[1].normal + 1, c[2].point + 1, c[2].normal + 1);
 		}
 	}
-	return whole_file_commit(&w, r);
+	return mesh_commit(&w, l, r);
 }

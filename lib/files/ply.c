@@ -2,29 +2,46 @@
 #include <stdlib.h>
 
 #include "bytes_out.h"
-#include "file.h"
 #include "mesh_file.h"
 
-/* A vertex there is a point and a normal: a normal of the mesh, which belongs to one point. */
-static int *points_of_normals(const struct mesh *m)
+/* A vertex there is a point and a normal, so a point that has several gets their mean: with a vertex for
+ * each the triangles of two sides of a sharp edge would not hang together. */
+static struct vec3 *mean_normals(const struct mesh *m)
 {
-	int *point = calloc((size_t)m->n_normals + 1, sizeof *point);
-	for (int t = 0; point && t < m->n_triangles; t++)
-		for (int k = 0; k < 3; k++)
-			point[m->triangles[t][k].normal] = m->triangles[t][k].point;
-	return point;
+	struct vec3 *mean = calloc((size_t)m->n_points + 1, sizeof *mean);
+	bool *seen = calloc((size_t)m->n_normals + 1, sizeof *seen);
+	for (int t = 0; mean && seen && t < m->n_triangles; t++)
+		for (int k = 0; k < 3; k++) {
+			const struct mesh_corner c = m->triangles[t][k];
+			if (!seen[c.normal])
+				mean[c.point] = vec3_add(mean[c.point], m->normals[c.normal]);
+			seen[c.normal] = true;
+		}
+	/* of sides that face each other there is no mean: the last one's */
+	for (int t = 0; mean && seen && t < m->n_triangles; t++)
+		for (int k = 0; k < 3; k++) {
+			const struct mesh_corner c = m->triangles[t][k];
+			if (!(vec3_length(mean[c.point]) > 1e-6))
+				mean[c.point] = m->normals[c.normal];
+		}
+	if (!seen) {
+		free(mean);
+		mean = NULL;
+	}
+	free(seen);
+	return mean;
 }
 
 enum status ply_write(const struct mesh *m, const struct mesh_labels *l, const char *path,
                       const struct report *r)
 {
 	struct whole_file w;
-	int *point = points_of_normals(m);
+	struct vec3 *normals = mean_normals(m);
 	enum status st =
-	        point ? whole_file_create(&w, path, r)
-	              : report_error(r, ST_RESOURCE, "cannot write '%s': memory ran out", path);
+	        normals ? whole_file_create(&w, path, r)
+	                : report_error(r, ST_RESOURCE, "cannot write '%s': memory ran out", path);
 	if (st != ST_OK) {
-		free(point);
+		free(normals);
 		return st;
 	}
 	FILE *f = w.stream;
@@ -33,9 +50,9 @@ enum status ply_write(const struct mesh *m, const struct mesh_labels *l, const c
 	        "element vertex %d\nproperty double x\nproperty double y\nproperty double z\n"
 	        "property float nx\nproperty float ny\nproperty float nz\n"
 	        "element face %d\nproperty list uchar int vertex_indices\nend_header\n",
-	        l->unit ? l->unit : "not known", m->n_normals, m->n_triangles);
-	for (int k = 0; k < m->n_normals; k++) {
-		const struct vec3 p = m->points[point[k]], n = m->normals[k];
+	        l->unit ? l->unit : "not known", m->n_points, m->n_triangles);
+	for (int k = 0; k < m->n_points && (k % 4096 || !mesh_stopped(l)); k++) {
+		const struct vec3 p = m->points[k], n = vec3_unit(normals[k]);
 		put_double(f, p.x);
 		put_double(f, p.y);
 		put_double(f, p.z);
@@ -43,11 +60,11 @@ enum status ply_write(const struct mesh *m, const struct mesh_labels *l, const c
 		put_float(f, n.y);
 		put_float(f, n.z);
 	}
-	for (int t = 0; t < m->n_triangles; t++) {
+	for (int t = 0; t < m->n_triangles && (t % 4096 || !mesh_stopped(l)); t++) {
 		put_u64(f, 3, 1);
 		for (int k = 0; k < 3; k++)
-			put_u64(f, (uint64_t)m->triangles[t][k].normal, 4);
+			put_u64(f, (uint64_t)m->triangles[t][k].point, 4);
 	}
-	free(point);
-	return whole_file_commit(&w, r);
+	free(normals);
+	return mesh_commit(&w, l, r);
 }

@@ -1,12 +1,11 @@
-"""`batten export`: what is written is read again the same; meshes are closed."""
-import collections
+"""`batten export`: what is written is read again the same."""
 import math
 import os
 import signal
-import struct
 import subprocess
 
 import end
+from iges_text import iges
 
 SHAPES = "sphere torus wigley hull naca propeller teapot".split()
 
@@ -74,23 +73,6 @@ TRIMMED = {
         (143, 0, "143,1,3,1,5;"), (122, 0, "122,9,1.,0.,2.;"), (141, 0, "141,1,2,3,1,0,1,1,7;"),
         (106, 63, "106,1,5,0.,.9,.25,1.1,.25,1.1,.75,.9,.75,.9,.25;"), (100, 0, "100,0.,0.,0.,1.,0.,1.,0.;")]),
 }
-
-
-def iges(entities):
-    """An IGES file in millimetres of rows type, form, parameters; D1, D3, ... in their order."""
-    def line(text, letter, number):
-        return f"{text:<72}{letter}{number:>7}\n"
-    directory, data, count = "", "", 0
-    for i, (kind, form, parameters) in enumerate(entities):
-        pieces = [parameters[k:k + 64] for k in range(0, len(parameters), 64)]
-        for j, row in enumerate(((kind, count + 1, 0, 0, 0, 0, 0, 0, "00000000"),
-                                 (kind, 0, 0, len(pieces), form, "", "", "", 0))):
-            directory += line("".join(f"{x:>8}" for x in row), "D", 2 * i + j + 1)
-        for k, piece in enumerate(pieces):
-            data += line(f"{piece:<64}{2 * i + 1:>8}", "P", count + k + 1)
-        count += len(pieces)
-    return (line("", "S", 1) + line("1H,,1H;,,,,,,,,,,,1.,2,2HMM;", "G", 1) + directory + data
-            + line(f"S{1:>7}G{1:>7}D{2 * len(entities):>7}P{count:>7}", "T", 1))
 
 
 def areas(project, file):
@@ -164,96 +146,6 @@ def test_an_import_interrupted_leaves_whole_files(project):
     assert len(named) < count
     for file in (named[0], named[-1]):
         assert abs(sum(areas(project, file)) - 1) < 1e-12
-
-
-def read_obj(path):
-    points, triangles, names = [], [], 0
-    with open(path) as f:
-        for line in f:
-            word, *rest = line.split() or ["#"]
-            if word == "v":
-                points.append(tuple(map(float, rest)))
-            elif word == "f":
-                triangles.append([points[int(corner.split("//")[0]) - 1] for corner in rest])
-            names += word == "o"
-    return triangles, names
-
-
-def read_stl(path):
-    with open(path, "rb") as f:
-        data = f.read()
-    assert data[:5] != b"solid"
-    n, = struct.unpack_from("<I", data, 80)
-    assert len(data) == 84 + 50 * n
-    values = (struct.unpack_from("<12fH", data, 84 + 50 * k) for k in range(n))
-    return [[v[3:6], v[6:9], v[9:12]] for v in values]
-
-
-def read_ply(path):
-    with open(path, "rb") as f:
-        head, data = f.read().split(b"end_header\n", 1)
-    lines = head.decode().split("\n")
-    assert lines[:2] == ["ply", "format binary_little_endian 1.0"]
-    counts = {line.split()[1]: int(line.split()[2]) for line in lines if line.startswith("element")}
-    points = [struct.unpack_from("<3d3f", data, 36 * k) for k in range(counts["vertex"])]
-    for p in points:
-        assert abs(math.hypot(*p[3:]) - 1) < 1e-6
-    faces = [struct.unpack_from("<B3I", data, 36 * len(points) + 13 * k) for k in range(counts["face"])]
-    assert len(data) == 36 * len(points) + 13 * len(faces)
-    assert all(f[0] == 3 for f in faces)
-    return [[points[i][:3] for i in f[1:]] for f in faces]
-
-
-def open_edges(triangles):
-    uses = collections.Counter()
-    for t in triangles:
-        for a, b in zip(t, t[1:] + t[:1]):
-            assert a != b
-            uses[(a, b)] += 1
-    return sum(count != 1 or uses[(b, a)] != 1 for (a, b), count in uses.items())
-
-
-def volume(triangles):
-    total = 0
-    for a, b, c in triangles:
-        total += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
-                  + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
-    return total
-
-
-def test_meshes_are_closed_in_every_format(project):
-    for name in ("sphere", "torus"):
-        meshes = []
-        for extension, read in ((".obj", lambda p: read_obj(p)[0]), (".stl", read_stl), (".ply", read_ply)):
-            file = project.path(name + extension)
-            told = project.json("batten", "export", example(name), "--to", file, "--angle", "20")
-            triangles = read(file)
-            assert told["triangles"] == len(triangles) and told["open_edges"] == 0, told
-            assert open_edges(triangles) == 0, (name, extension)
-            meshes.append(triangles)
-        for a, b in zip(meshes[0], meshes[2]):
-            assert a == b  # OBJ and PLY hold the points to the bit
-        # every edge is used once each way; the volume is that of the sphere (or torus) within the tolerance
-        box = project.json("batten", "info", example(name))["entities"][0]["box"]
-        dx, _, dz = (hi - lo for lo, hi in zip(*box))
-        exact = math.pi / 6 * dx ** 3 if name == "sphere" else 2 * math.pi ** 2 * (dx - dz) / 2 * (dz / 2) ** 2
-        assert 0.97 * exact < abs(volume(meshes[0])) < exact
-
-
-def test_faces_that_join_make_one_closed_mesh(project):
-    told = project.json("batten", "export", example("hull"), "--to", "hull.obj")
-    triangles, names = read_obj(project.path("hull.obj"))
-    assert told["open_edges"] == 0 and open_edges(triangles) == 0
-    assert names == told["entities"] > 1
-
-
-def test_the_tolerance_and_the_angle_are_obeyed(project):
-    counts = [project.json("batten", "export", example("torus"), "--to", "t.stl", "--angle", "180", "--tolerance",
-                           t)["triangles"] for t in ("0.1", "0.01", "0.001")]
-    assert counts[0] * 4 < counts[1] * 2 < counts[2], counts
-    counts = [project.json("batten", "export", example("torus"), "--to", "t.stl", "--tolerance", "1", "--angle",
-                           a)["triangles"] for a in ("40", "10")]
-    assert counts[0] * 4 < counts[1], counts
 
 
 def test_same_input_same_bytes(project):

@@ -20,7 +20,7 @@ static struct vec3 normals[6] = { { 0, 0, 1 }, { 0, 0, 1 }, { 0, 0, 1 },
 static struct mesh_corner triangles[2][3] = { { { 0, 0 }, { 1, 1 }, { 2, 2 } },
 	                                      { { 1, 3 }, { 3, 4 }, { 2, 5 } } };
 static struct mesh_part parts[2] = { { 0, 1 }, { 1, 1 } };
-static const struct mesh roof = { points, normals, triangles, NULL, 4, 6, 2, parts, 2 };
+static const struct mesh roof = { points, normals, triangles, NULL, 4, 6, 2, parts, 2, 0 };
 static const char *const names[2] = { "left side", NULL };
 
 typedef enum status writer(const struct mesh *m, const struct mesh_labels *l, const char *path,
@@ -41,7 +41,7 @@ static char *written(writer *write, const struct mesh_labels *l, size_t *n)
 static void obj_is_text(void **state)
 {
 	(void)state;
-	const struct mesh_labels l = { "mm", names };
+	const struct mesh_labels l = { .unit = "mm", .names = names };
 	size_t n;
 	char *s = written(obj_write, &l, &n);
 	assert_string_equal(s, "# batten\n# unit mm\nv 0 0 0\nv 1 0 0.1\nv 0 1 0.1\nv 1 1 0\n"
@@ -77,26 +77,28 @@ static float float_at(const char *s, size_t at)
 static void ply_is_binary(void **state)
 {
 	(void)state;
-	const struct mesh_labels l = { NULL, NULL };
+	const struct mesh_labels l = { 0 };
 	size_t n;
 	char *s = written(ply_write, &l, &n);
 	const char *end = strstr(s, "end_header\n");
 	assert_non_null(end);
-	assert_non_null(strstr(s, "comment unit not known\nelement vertex 6\n"));
+	assert_non_null(strstr(s, "comment unit not known\nelement vertex 4\n"));
 	const size_t data = (size_t)(end - s) + strlen("end_header\n");
-	assert_int_equal(n, data + 6 * 36 + 2 * 13);
-	assert_true(double_at(s, data + 36 + 16) == 0.1);    /* z of vertex 1 */
-	assert_true(double_at(s, data + 3 * 36) == 1);       /* vertex 3 is point 1 */
-	assert_true(float_at(s, data + 3 * 36 + 24) == 1.f); /* with another normal */
-	assert_int_equal(bytes_at(s, data + 6 * 36 + 13, 1), 3);
-	assert_int_equal(bytes_at(s, data + 6 * 36 + 14, 4), 3);
+	assert_int_equal(n, data + 4 * 36 + 2 * 13);
+	assert_true(double_at(s, data + 36 + 16) == 0.1); /* z of point 1 */
+	/* on the sharp edge the mean of both normals, else the only one */
+	assert_true(float_at(s, data + 36 + 24) == (float)sqrt(0.5));
+	assert_true(float_at(s, data + 36 + 32) == (float)sqrt(0.5));
+	assert_true(float_at(s, data + 3 * 36 + 24) == 1.f);
+	assert_int_equal(bytes_at(s, data + 4 * 36 + 13, 1), 3);
+	assert_int_equal(bytes_at(s, data + 4 * 36 + 13 + 1 + 4, 4), 3); /* its second corner */
 	free(s);
 }
 
 static void stl_is_binary(void **state)
 {
 	(void)state;
-	const struct mesh_labels l = { "m", NULL };
+	const struct mesh_labels l = { .unit = "m" };
 	size_t n;
 	char *s = written(stl_write, &l, &n);
 	assert_int_equal(n, 84 + 2 * 50);
@@ -113,7 +115,7 @@ static void a_missing_folder_is_said(void **state)
 {
 	(void)state;
 	static writer *const all[] = { obj_write, ply_write, stl_write };
-	const struct mesh_labels l = { NULL, NULL };
+	const struct mesh_labels l = { 0 };
 	for (int k = 0; k < 3; k++) {
 		struct report_store store;
 		report_store_init(&store);

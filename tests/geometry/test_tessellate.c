@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "construct.h"
+#include "mesh_look.h"
 #include "refine.h"
 #include "tessellate.h"
 
@@ -58,8 +59,11 @@ static double volume_of(const struct mesh *m)
 
 static int open_edges(const struct mesh *m)
 {
-	int n;
-	assert_int_equal(mesh_open_edges(m, &n), ST_OK);
+	struct mesh_looks looks;
+	assert_int_equal(mesh_look(&looks, m), ST_OK);
+	assert_int_equal(looks.multiple + looks.turned, 0);
+	const int n = looks.open;
+	mesh_looks_finish(&looks);
 	return n;
 }
 
@@ -356,6 +360,7 @@ static void what_is_wrong_is_said(void **state)
 	struct mesh m;
 	struct report_store store;
 	atomic_bool stop = true;
+	const struct tessellate_watch watch = { .stop = &stop };
 	assert_int_equal(make_sphere(&s, vec3(0, 0, 0), 1), ST_OK);
 	const struct tessellate_face face = { &s, NULL };
 	struct tessellate_limits l = limits_of(0, 10);
@@ -363,7 +368,7 @@ static void what_is_wrong_is_said(void **state)
 	assert_int_equal(tessellate(&m, &face, 1, &l, NULL, &store.report), ST_PARAMETER);
 	assert_int_equal(store.n_errors, 1);
 	l = limits_of(0.01, 10);
-	assert_int_equal(tessellate(&m, &face, 1, &l, &stop, NULL), ST_CANCELLED);
+	assert_int_equal(tessellate(&m, &face, 1, &l, &watch, NULL), ST_CANCELLED);
 	/* two loops that cross: the face is left out with a warning, not the others */
 	struct trim t = { 0 };
 	struct surface p;

@@ -230,10 +230,9 @@ enum status mesh_uncross(struct mesh_build *b)
 			struct mesh_face face;
 			if (!again[f])
 				continue;
-			if (b->stop && atomic_load_explicit(b->stop, memory_order_relaxed)) {
-				st = ST_CANCELLED;
+			st = mesh_step(b, MESH_UNCROSS, f, b->n_faces);
+			if (st != ST_OK)
 				break;
-			}
 			again[f] = false;
 			st = mesh_face_init(&face, b, f);
 			if (st == ST_OK)

@@ -52,6 +52,8 @@ static enum status line_add(struct line *x, double t, const double *ways)
 	struct mesh_edge *m = x->master;
 	const bool end = t == m->t[0] || t == m->t[1];
 	int point;
+	if (b->out->n_points > TESSELLATE_MOST)
+		return mesh_too_many(b);
 	enum status st = end || m->degenerate ? vertex_point(b, m->vertex[t != m->t[0]], &point)
 	                                      : mesh_add_point(b, mesh_edge_point(b, m, t), &point);
 	for (int k = 0; k < x->n_members && st == ST_OK; k++)
@@ -233,9 +235,8 @@ enum status mesh_cut(struct mesh_build *b)
 			          .master = &b->edges[k],
 			          .members = b->members + b->groups[k],
 			          .n_members = n };
-		if (b->stop && atomic_load_explicit(b->stop, memory_order_relaxed))
-			st = ST_CANCELLED;
-		else if (n)
+		st = mesh_step(b, MESH_CUT, k, b->n_edges);
+		if (st == ST_OK && n)
 			st = cut_line(&x);
 	}
 	return st;

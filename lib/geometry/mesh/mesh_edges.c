@@ -217,6 +217,9 @@ enum status mesh_collect_edges(struct mesh_build *b)
 	for (int f = 0; f < b->n_faces && st == ST_OK; f++) {
 		const struct trim *t = b->faces[f].trim;
 		bool outer = false;
+		st = mesh_step(b, MESH_COLLECT, f, b->n_faces);
+		if (st != ST_OK)
+			break;
 		st = mesh_find_creases(&b->creases[f], b->faces[f].surface);
 		for (int k = 0; t && k < t->n; k++)
 			outer |= t->loops[k].outer;

@@ -4,13 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "curvature.h"
-
 void mesh_face_at(const struct mesh_face *f, const double uv[2], int32_t at[2])
 {
 	for (int d = 0; d < 2; d++) {
-		const double *domain = f->s->domain[d];
-		const double x = (uv[d] - domain[0]) / (domain[1] - domain[0]);
+		const double *range = f->range[d];
+		const double x = (uv[d] - range[0]) / (range[1] - range[0]);
 		at[d] = (int32_t)lrint(fmin(fmax(x, 0), 1) * f->side[d]);
 	}
 }
@@ -61,53 +59,6 @@ bool mesh_face_coarse(struct mesh_face *f, int a, int b, int patch)
 		return false;
 	const struct vec3 m = mesh_face_normal(f, a, patch), k = mesh_face_normal(f, b, patch);
 	return atan2(vec3_length(vec3_cross(m, k)), vec3_dot(m, k)) > l->angle; /* NaN: false */
-}
-
-/*
- * How long the domain is in each direction, counted in pieces that the tolerances would make: in
- * these units equal triangles are good ones. A flat direction counts a little, for shape.
- */
-static void measure_sides(struct mesh_face *f)
-{
-	enum { N = 4 };
-	const struct tessellate_limits *l = f->b->limits;
-	const struct surface *s = f->s;
-	const double du = s->domain[0][1] - s->domain[0][0], dv = s->domain[1][1] - s->domain[1][0];
-	const double flat = 1 / (10 * surface_size(s));
-	double pieces[2] = { 0, 0 };
-	for (int i = 0; i < N; i++)
-		for (int j = 0; j < N; j++) {
-			struct surface_shape x;
-			surface_shape(s, s->domain[0][0] + du * (i + 0.5) / N,
-			              s->domain[1][0] + dv * (j + 0.5) / N, &x);
-			double rate[2];
-			for (int d = 0; d < 2; d++) {
-				const double k = fabs(x.value[QUANTITY_NORMAL_U + d]);
-				rate[d] = k > 0 ? fmax(sqrt(k / (8 * l->chord)), k / l->angle) : 0;
-			}
-			const double least = flat + 0.1 * fmax(rate[0], rate[1]);
-			pieces[0] += vec3_length(x.du) * du * fmax(rate[0], least);
-			pieces[1] += vec3_length(x.dv) * dv * fmax(rate[1], least);
-		}
-	const double ratio = fmin(fmax(pieces[1] / pieces[0], 1.0 / 256), 256);
-	/* halves of halves stay whole */
-	f->side[0] = f->side[1] = NET_SIDE / 2;
-	if (ratio < 1)
-		f->side[1] = (int32_t)(ratio * NET_SIDE / 2048) * 1024;
-	else if (ratio > 1)
-		f->side[0] = (int32_t)(NET_SIDE / ratio / 2048) * 1024;
-}
-
-static void measure_spans(struct mesh_face *f)
-{
-	for (int d = 0; d < 2; d++) {
-		const struct surface *s = f->s;
-		int n = 1;
-		for (int i = 1; i < s->n[d] + s->order[d]; i++)
-			n += s->knots[d][i] > s->knots[d][i - 1] &&
-			     s->knots[d][i] > s->domain[d][0] && s->knots[d][i] < s->domain[d][1];
-		f->span[d] = (s->domain[d][1] - s->domain[d][0]) / n;
-	}
 }
 
 /* A normal for a corner where the surface has none, a tip: from a little inside the triangle, as seen
@@ -163,8 +114,7 @@ enum status mesh_face_init(struct mesh_face *f, struct mesh_build *b, int face)
 	*f = (struct mesh_face){
 		.b = b, .face = face, .s = b->faces[face].surface, .creases = &b->creases[face]
 	};
-	measure_sides(f);
-	measure_spans(f);
+	mesh_face_measure(f);
 	return net_init(&f->net);
 }
 

@@ -20,8 +20,9 @@ struct mesh_face {
 	const struct surface *s;
 	const struct mesh_creases *creases;
 	struct net net;
+	double range[2][2];        /* of u and v that the loops reach */
 	double span[2];            /* mean length of a span in u and v */
-	int32_t side[2];           /* of the domain in the net's coordinates */
+	int32_t side[2];           /* of the range in the net's coordinates */
 	struct mesh_place *places; /* owned; of each vertex of the net, the frame's four unused */
 	int places_room;
 };
@@ -47,6 +48,9 @@ enum status mesh_face_place(struct mesh_face *f, int vertex, const double uv[2],
 struct vec3 mesh_face_normal(struct mesh_face *f, int vertex, int patch);
 /* The piece from vertex a to b, seen from that patch, is not yet near or smooth enough. */
 bool mesh_face_coarse(struct mesh_face *f, int a, int b, int patch);
+
+/* mesh_size.c: range, span, side. */
+void mesh_face_measure(struct mesh_face *f);
 
 /* mesh_border.c: the loops in the net, what is inside of them, and what is wrong. Nodes that are one
  * place in the net become one point. Errors: ST_RESOURCE. */

@@ -4,7 +4,7 @@
 
 #include "mesh_private.h"
 
-enum { LEVELS = 10, LEVEL_STEP = 4 };
+enum { LEVELS = MESH_ROUNDS - 1, LEVEL_STEP = 4 };
 
 int mesh_vertex_root(struct mesh_build *b, int vertex)
 {
@@ -156,6 +156,7 @@ static enum status join_within(struct mesh_build *b, double level, bool leave)
 	if (st == ST_OK)
 		st = find_masters(b, level);
 	find_degenerate(b, level, false);
+	b->round++;
 	return st;
 }
 

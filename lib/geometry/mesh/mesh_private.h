@@ -61,7 +61,7 @@ struct mesh_build {
 	const struct tessellate_face *faces;
 	int n_faces;
 	const struct tessellate_limits *limits;
-	const atomic_bool *stop;
+	const struct tessellate_watch *watch;
 	const struct report *r;
 	struct mesh *out;
 	int points_room, normals_room, triangles_room, heads_room, parameters_room;
@@ -82,9 +82,17 @@ struct mesh_build {
 	int *groups;  /* owned; members[groups[k]] .. [groups[k + 1] - 1] have edge k as master */
 	int *members; /* owned */
 	double gap;   /* the widest that was closed */
+	int round;    /* of joining */
+	bool told;    /* why it cannot be was said */
 };
 
+/* The steps, for those who watch. */
+enum mesh_stage { MESH_COLLECT, MESH_JOIN, MESH_CUT, MESH_UNCROSS, MESH_FILL, N_MESH_STAGES };
+
 /* tessellate.c */
+/* Number i of n of that stage comes; ST_CANCELLED: stop. Looks now and then only. */
+enum status mesh_step(const struct mesh_build *b, enum mesh_stage stage, int i, int n);
+enum status mesh_too_many(struct mesh_build *b); /* says so */
 enum status mesh_grow(void **p, int *room, int n, size_t size);
 enum status mesh_add_point(struct mesh_build *b, struct vec3 p, int *point);
 int mesh_point_root(struct mesh_build *b, int point);
@@ -121,7 +129,8 @@ enum status mesh_collect_edges(struct mesh_build *b);
 /* Part edge number k at the m rising parameters t; vertex[i] is the vertex at t[i], -1: a new one. */
 enum status mesh_edge_part(struct mesh_build *b, int k, const double *t, const int *vertex, int m);
 
-/* mesh_join.c: edges that are one line in space. */
+/* mesh_join.c: edges that are one line in space, found in rounds. */
+enum { MESH_ROUNDS = 11 };
 enum status mesh_join(struct mesh_build *b);
 int mesh_vertex_root(struct mesh_build *b, int vertex);
 void mesh_vertex_unite(struct mesh_build *b, int vertex, int other);
@@ -146,6 +155,9 @@ enum status mesh_uncross(struct mesh_build *b);
 /* mesh_face.c: the triangles of a face whose borders have been cut.
  * Errors: ST_INPUT (its loops cross each other), ST_RESOURCE, ST_CANCELLED. */
 enum status mesh_fill(struct mesh_build *b, int face);
+
+/* mesh_size.c: about how many triangles a face whose edges are sampled will have. */
+double mesh_estimate(const struct mesh_build *b, int face);
 
 /* mesh_orient.c: sides of faces, so that neighbours agree. */
 enum status mesh_orient(struct mesh_build *b);

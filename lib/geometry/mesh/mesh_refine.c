@@ -5,7 +5,7 @@
 
 /* Shorter edges, in the net's coordinates, are left: where a surface breaks no triangle is ever near
  * enough. 2^15 of them make a whole side. */
-enum { SHORTEST = 1 << 12, DEPTH_MAX = 20, TRIANGLES_MAX = 100 * 1000 * 1000 };
+enum { SHORTEST = 1 << 12, DEPTH_MAX = 20 };
 
 /* A vertex at whole coordinates; its parameters follow from them, or are given. */
 static enum status add_vertex(struct mesh_face *f, const int32_t at[2], const double uv[2],
@@ -21,8 +21,8 @@ static enum status add_vertex(struct mesh_face *f, const int32_t at[2], const do
 static void parameters_at(const struct mesh_face *f, const int32_t at[2], double uv[2])
 {
 	for (int d = 0; d < 2; d++) {
-		const double *domain = f->s->domain[d];
-		uv[d] = domain[0] + (domain[1] - domain[0]) * ((double)at[d] / f->side[d]);
+		const double *range = f->range[d];
+		uv[d] = range[0] + (range[1] - range[0]) * ((double)at[d] / f->side[d]);
 	}
 }
 
@@ -71,6 +71,8 @@ static enum status add_crossings(struct mesh_face *f, double c)
 		const double uv[2] = { c, f->creases->at[1][j] };
 		int32_t at[2];
 		int vertex;
+		if (!(uv[1] > f->range[1][0] && uv[1] < f->range[1][1]))
+			continue;
 		mesh_face_at(f, uv, at);
 		if (f->net.triangles[net_find(&f->net, at[0], at[1])].inside)
 			st = add_vertex(f, at, uv, &vertex);
@@ -111,7 +113,9 @@ enum status mesh_face_creases(struct mesh_face *f)
 	enum status st = ST_OK;
 	for (int d = 0; d < 2; d++)
 		for (int k = 0; k < f->creases->n[d] && st == ST_OK; k++)
-			st = add_crease(f, d, f->creases->at[d][k]);
+			if (f->creases->at[d][k] > f->range[d][0] &&
+			    f->creases->at[d][k] < f->range[d][1])
+				st = add_crease(f, d, f->creases->at[d][k]);
 	return st;
 }
 
@@ -265,15 +269,14 @@ static enum status refine_all(struct mesh_face *f)
 			bool parted;
 			if (!f->net.triangles[t].inside || f->net.triangles[t].done)
 				continue;
-			if (t % 1024 == 0 && f->b->stop &&
-			    atomic_load_explicit(f->b->stop, memory_order_relaxed))
-				return ST_CANCELLED;
-			if (f->net.n_triangles > TRIANGLES_MAX)
-				return report_error(f->b->r, ST_RESOURCE,
-				                    "a face needs more than %d triangles; give "
-				                    "a larger tolerance",
-				                    TRIANGLES_MAX);
-			enum status st = refine_triangle(f, t, &parted);
+			if (f->net.n_triangles > TESSELLATE_MOST - f->b->out->n_triangles)
+				return mesh_too_many(f->b);
+			enum status st = t % 1024 ? ST_OK
+			                          : mesh_step(f->b, MESH_FILL, 64 * f->face,
+			                                      64 * f->b->n_faces);
+			if (st != ST_OK)
+				return st;
+			st = refine_triangle(f, t, &parted);
 			if (st != ST_OK)
 				return st;
 			if (!parted)

@@ -360,8 +360,7 @@ enum status mesh_touch(struct mesh_build *b, double level, bool leave)
 	if (st != ST_OK)
 		return st;
 	for (int k = 0; k < b->n_edges && st == ST_OK; k++) {
-		if (b->stop && atomic_load_explicit(b->stop, memory_order_relaxed))
-			st = ST_CANCELLED;
+		st = mesh_step(b, MESH_JOIN, k % 64 ? 1 : 64 * b->round, 64 * MESH_ROUNDS);
 		for (int end = 0; end < 2 && st == ST_OK; end++)
 			if (!b->edges[k].joined && !b->edges[k].degenerate)
 				st = find_contacts(&x, &tree, k, end, &found, &room);

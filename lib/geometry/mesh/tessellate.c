@@ -107,6 +107,29 @@ enum status mesh_add_triangle(struct mesh_build *b, const struct mesh_corner cor
 	return st;
 }
 
+enum status mesh_too_many(struct mesh_build *b)
+{
+	b->told = true;
+	return report_error(b->r, ST_RESOURCE,
+	                    "more than %d triangles are needed to come within %g; give a larger "
+	                    "tolerance",
+	                    TESSELLATE_MOST, b->limits->chord);
+}
+
+enum status mesh_step(const struct mesh_build *b, enum mesh_stage stage, int i, int n)
+{
+	/* of a hundred, by how long each takes where there are many faces */
+	static const int starts[N_MESH_STAGES + 1] = { 0, 5, 35, 45, 55, 100 };
+	const struct tessellate_watch *w = b->watch;
+	if (!w || i % 64)
+		return ST_OK;
+	if (w->step)
+		w->step(w->data, 0.01 * (starts[stage] +
+		                         (starts[stage + 1] - starts[stage]) * ((double)i / n)));
+	return w->stop && atomic_load_explicit(w->stop, memory_order_relaxed) ? ST_CANCELLED
+	                                                                      : ST_OK;
+}
+
 static void build_finish(struct mesh_build *b)
 {
 	for (int k = 0; k < b->n_edges; k++)
@@ -139,7 +162,9 @@ static enum status fill_all(struct mesh_build *b)
 	m->n_parts = b->n_faces;
 	for (int f = 0; f < b->n_faces && st == ST_OK; f++) {
 		m->parts[f].first = m->n_triangles;
-		st = mesh_fill(b, f);
+		st = mesh_step(b, MESH_FILL, f, b->n_faces);
+		if (st == ST_OK)
+			st = mesh_fill(b, f);
 		if (st == ST_INPUT) {
 			report_warning(
 			        b->r,
@@ -154,18 +179,30 @@ static enum status fill_all(struct mesh_build *b)
 	return st;
 }
 
+/* What is far too many is said at once, not after minutes. */
+static enum status look_ahead(struct mesh_build *b)
+{
+	static const double sure = 8;
+	double sum = 0;
+	for (int f = 0; f < b->n_faces; f++)
+		sum += mesh_estimate(b, f);
+	return sum > sure * TESSELLATE_MOST ? mesh_too_many(b) : ST_OK;
+}
+
 enum status tessellate(struct mesh *out, const struct tessellate_face *faces, int n,
-                       const struct tessellate_limits *limits, const atomic_bool *stop,
+                       const struct tessellate_limits *limits, const struct tessellate_watch *watch,
                        const struct report *r)
 {
 	struct mesh_build b = {
-		.faces = faces, .n_faces = n, .limits = limits, .stop = stop, .r = r, .out = out
+		.faces = faces, .n_faces = n, .limits = limits, .watch = watch, .r = r, .out = out
 	};
 	*out = (struct mesh){ 0 };
 	if (!(limits->chord > 0) || !(limits->angle > 0) || !(limits->join >= 0) || n < 1)
 		return report_error(r, ST_PARAMETER,
 		                    "triangles need a face, a distance and an angle above 0");
 	enum status st = mesh_collect_edges(&b);
+	if (st == ST_OK)
+		st = look_ahead(&b);
 	if (st == ST_OK)
 		st = mesh_join(&b);
 	if (st == ST_OK)
@@ -178,39 +215,11 @@ enum status tessellate(struct mesh *out, const struct tessellate_face *faces, in
 		st = mesh_orient(&b);
 	if (st == ST_OK)
 		st = mesh_settle(&b);
+	out->gap = b.gap;
 	build_finish(&b);
 	if (st != ST_OK)
 		mesh_finish(out);
+	if (st == ST_RESOURCE && !b.told)
+		report_error(r, st, "memory ran out making triangles; give a larger tolerance");
 	return st;
-}
-
-static int by_ends(const void *a, const void *b)
-{
-	const int *p = a, *q = b;
-	return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
-}
-
-enum status mesh_open_edges(const struct mesh *m, int *out)
-{
-	const size_t n = 3 * (size_t)m->n_triangles;
-	int(*e)[2] = malloc((n ? n : 1) * sizeof *e);
-	if (!e)
-		return ST_RESOURCE;
-	for (size_t i = 0; i < n; i++) {
-		const int p = m->triangles[i / 3][i % 3].point;
-		const int q = m->triangles[i / 3][(i + 1) % 3].point;
-		e[i][0] = p < q ? p : q;
-		e[i][1] = p < q ? q : p;
-	}
-	qsort(e, n, sizeof *e, by_ends);
-	*out = 0;
-	for (size_t i = 0; i < n;) {
-		size_t k = i + 1;
-		while (k < n && by_ends(e[k], e[i]) == 0)
-			k++;
-		*out += k - i != 2;
-		i = k;
-	}
-	free(e);
-	return ST_OK;
 }

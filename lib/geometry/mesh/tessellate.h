@@ -18,20 +18,19 @@ struct mesh_part {
 };
 
 struct mesh {
-	struct vec3 *points;  /* owned; each place once: faces that join share them */
-	struct vec3 *normals; /* owned; of the surface, unit; sharp edges have several at a point */
-	struct mesh_corner (*triangles)[3]; /* owned; counterclockwise about Su x Sv */
+	struct vec3 *points; /* owned; each place once: faces that join share them */
+	struct vec3
+	        *normals; /* owned; of the surface, Su x Sv unless turned about, unit; sharp edges
+	                       * have several at a point */
+	struct mesh_corner (*triangles)[3]; /* owned; counterclockwise about the normals */
 	double (*parameters)[3][2]; /* owned; u, v of the corners in their face, where asked for */
 	int n_points, n_normals, n_triangles;
 	struct mesh_part *parts; /* owned, one a face */
 	int n_parts;
+	double gap; /* the widest between borders that were joined */
 };
 
 void mesh_finish(struct mesh *m); /* a zeroed one is fine */
-
-/* Edges that are not shared by exactly two triangles, by place: 0 where the mesh is closed.
- * Errors: ST_RESOURCE. */
-enum status mesh_open_edges(const struct mesh *m, int *out);
 
 struct tessellate_face {
 	const struct surface *surface; /* borrowed */
@@ -46,17 +45,31 @@ struct tessellate_limits {
 	bool orient;     /* turn faces about so that neighbours agree and closed shapes look out */
 };
 
+/* What a caller hears while it works, and says. */
+struct tessellate_watch {
+	void (*step)(void *data, double fraction); /* may be NULL */
+	void *data;
+	const atomic_bool *stop; /* may be NULL */
+};
+
+/* As many are no use to anyone: more than that is an error. */
+enum { TESSELLATE_MOST = 20 * 1000 * 1000 };
+
 /*
  * Triangles of n faces. A border that several faces share, or that a closed surface has twice, is
  * cut once, as finely as the strictest of them needs; a border that is one point gives no triangle
- * without area. Sharp lines inside a surface are edges of triangles. Points lie on their surface,
- * but on a joined border, where they are one surface's and within 2 join of the other.
+ * without area. Borders that meet within less are joined before those that meet within more, up to
+ * `join`; where one ends and the other goes on the latter is parted. Sharp lines inside a surface are
+ * edges of triangles. Points lie on their surface, but on a joined border, where they are one
+ * surface's and within 2 join of the other. Loops that would cross where they are cut coarsely are
+ * cut finer than asked for; a face whose loops cross for all that is left out, with a warning.
  * Accuracy: chord is checked at points of every edge and triangle, as dense as the surface's spans;
  * angle holds where edges are longer than chord.
- * Errors: ST_RESOURCE, ST_PARAMETER (limits), ST_INPUT (a face whose loops cannot be cut), ST_CANCELLED.
+ * `watch` may be NULL.
+ * Errors: ST_RESOURCE (memory, TESSELLATE_MOST), ST_PARAMETER (limits), ST_CANCELLED.
  */
 enum status tessellate(struct mesh *out, const struct tessellate_face *faces, int n,
-                       const struct tessellate_limits *limits, const atomic_bool *stop,
+                       const struct tessellate_limits *limits, const struct tessellate_watch *watch,
                        const struct report *r);
 
 #endif
