@@ -330,6 +330,8 @@ double desk_next_tick(const struct desk *d)
 
 void desk_close(struct desk *d)
 {
+	if (d->drag != DRAG_NONE)
+		desk_drag_cancel(d);
 	desk_quit(d);
 }
 

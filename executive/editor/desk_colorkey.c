@@ -1,10 +1,13 @@
 /* desk_colorkey.c - the key of the map that is shown; its ends are dragged to set the range by hand, a
  * double click goes back to the one found from the values. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "desk_inside.h"
+#include "number.h"
+#include "text.h"
 
 static const double DOUBLE_CLICK_S = 0.4;
 
@@ -64,23 +67,48 @@ void desk_paint_keys(struct desk *d, cairo_t *cr, struct scraps *s)
 	panel_key(cr, seven ? &eighth : &d->layout.view, &m, &d->look, &d->hits[PART_OVER]);
 }
 
+/* Of every map that is shown: they have one key. */
 static void set_range(struct desk *d, bool given, double lo, double hi)
 {
-	const struct overlay *old = shown_map(d);
-
-	if (!old)
-		return;
-	struct overlay o = *old;
-	o.range_given = given;
-	o.lo = lo;
-	o.hi = hi;
-	o.symmetric = false;
-	char *file = o.file ? strdup(o.file) : NULL; /* the old one goes */
-	o.file = file;
-	if (world_show(d->world, &o) != ST_OK)
-		desk_say(d, REPORT_ERROR, "memory ran out");
-	free(file);
+	for (int k = 0; k < world_overlays(d->world); k++) {
+		struct overlay o = *world_overlay(d->world, k);
+		char *file = o.file ? strdup(o.file) : NULL; /* the old one goes */
+		if (o.kind == OVERLAY_MAP) {
+			o.range_given = given;
+			o.lo = lo;
+			o.hi = hi;
+			o.symmetric = false;
+			o.file = file;
+			if (world_show(d->world, &o) != ST_OK)
+				desk_say(d, REPORT_ERROR, "memory ran out");
+		}
+		free(file);
+	}
 	desk_dirty(d, DESK_VIEW | desk_bit(PART_OVER));
+}
+
+/* As the leaf that shows the quantity would have set it. Of seven views there is no such leaf. */
+void desk_key_keep(struct desk *d)
+{
+	static const char *const scale[] = { [COLORMAP_LINEAR] = "linear",
+		                             [COLORMAP_ARSINH] = "arsinh",
+		                             [COLORMAP_AUTOMATIC] = "auto" };
+	const struct overlay *o = shown_map(d);
+	char code[16], lo[NUMBER_SIZE], hi[NUMBER_SIZE];
+
+	if (!o || d->n_tiles == N_QUANTITIES)
+		return;
+	snprintf(code, sizeof code, "V%d", 80 + (int)o->quantity);
+	number_write(lo, o->lo);
+	number_write(hi, o->hi);
+	char *range = o->range_given ? text_print("%s,%s", lo, hi) : strdup("auto");
+	const char *const pairs[] = { "range",     range ? range : "auto",
+		                      "scale",     scale[o->scale],
+		                      "symmetric", "no",
+		                      "surfaces",  "shown",
+		                      NULL };
+	desk_journal(d, code, pairs);
+	free(range);
 }
 
 bool desk_key_press(struct desk *d, const struct hit *h)
@@ -91,6 +119,7 @@ bool desk_key_press(struct desk *d, const struct hit *h)
 		return true;
 	if (d->now - d->click_at < DOUBLE_CLICK_S) {
 		set_range(d, false, 0, 1);
+		desk_key_keep(d);
 		return true;
 	}
 	d->click_at = d->now;

@@ -151,8 +151,9 @@ struct desk {
 	int card_index;
 	struct colormap key_map, key_before; /* as shown; when an end was taken */
 	double key_px;
-	bool point_moved;
-	struct vec3 point_to;
+	bool point_moved, weighing; /* weighing: its weight is dragged, not its place */
+	struct vec3 point_from, point_to;
+	double weight_from, weight_to;
 
 	struct errand *errand; /* owned; it has the world */
 	char **pending;        /* owned; files still to be opened */
@@ -207,7 +208,10 @@ enum tool desk_leaf_tool(const char *code);
 void desk_quit(struct desk *d);
 void desk_run(struct desk *d, const struct routine *t, const struct arguments *given);
 void desk_run_code(struct desk *d, const char *code, const char *name, const char *value);
+/* What was done without the routine, as if by it; pairs of name and value, ended by NULL. */
+void desk_journal(struct desk *d, const char *code, const char *const *pairs);
 void desk_open_next(struct desk *d);
+const char *desk_near_path(const struct desk *d, const char *path); /* borrowed from path */
 
 /* desk_ask.c */
 void desk_ask(struct desk *d, const struct routine *t, const struct Menu_Entry *e);
@@ -311,7 +315,7 @@ void desk_tool_end(struct desk *d, bool keep);
 void desk_tool_changed(struct desk *d); /* a field of the form was typed: show it */
 bool desk_tool_press(struct desk *d, const struct hit *h);
 void desk_tool_move(struct desk *d);
-bool desk_point_press(struct desk *d);
+bool desk_point_press(struct desk *d, bool weighing);
 void desk_point_move(struct desk *d);
 void desk_point_release(struct desk *d, bool keep);
 struct color_model desk_color_model(struct desk *d);
@@ -329,6 +333,7 @@ void desk_paint_probe(struct desk *d, cairo_t *cr);
 void desk_paint_keys(struct desk *d, cairo_t *cr, struct scraps *s);
 bool desk_key_press(struct desk *d, const struct hit *h); /* an end of a color key */
 void desk_key_move(struct desk *d);
+void desk_key_keep(struct desk *d); /* the end was let go: it goes into the journal */
 
 /* scraps.c */
 void scraps_reset(struct scraps *s);

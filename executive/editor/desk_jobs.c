@@ -192,6 +192,23 @@ static void send(struct desk *d, enum message_type type, const int64_t *ids, int
 		d->ports.ask_jobs(d->ports.data, type, ids, n);
 }
 
+/* So that the journal has what the jobs were told; in the routine both kinds of waiting go on. */
+static void write_down(struct desk *d, enum message_type type, const int64_t *ids, int n)
+{
+	const char *code = type == MESSAGE_SUSPEND    ? "V163"
+	                   : type == MESSAGE_ACTIVATE ? "V164"
+	                   : type == MESSAGE_KILL     ? "V165"
+	                                              : NULL;
+	struct text list = { 0 };
+
+	for (int i = 0; i < n; i++)
+		text_addf(&list, "%s%lld", i ? "," : "", (long long)ids[i]);
+	const char *const pairs[] = { "jobs", list.s, NULL };
+	if (code && n && !list.failed)
+		desk_journal(d, code, pairs);
+	text_finish(&list);
+}
+
 static int those_that_can(struct desk *d, enum message_type type, int64_t ids[PICKED_MAX])
 {
 	int n = 0;
@@ -211,8 +228,10 @@ static void kill_answer(struct desk *d, char key)
 	int64_t ids[PICKED_MAX];
 	int n = key == 'Y' ? those_that_can(d, MESSAGE_KILL, ids) : 0;
 
-	if (n)
+	if (n) {
+		write_down(d, MESSAGE_KILL, ids, n);
 		send(d, MESSAGE_KILL, ids, n);
+	}
 }
 
 static void ask_kill(struct desk *d, const int64_t *ids, int n)
@@ -264,6 +283,7 @@ void desk_jobs_do(struct desk *d, enum message_type type)
 		ask_kill(d, ids, n);
 		return;
 	}
+	write_down(d, type, ids, n);
 	if (type == MESSAGE_ACTIVATE) { /* one key lets go on whatever we stopped */
 		int rest = 0;
 		for (int i = 0; i < n; i++)

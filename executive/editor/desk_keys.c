@@ -113,6 +113,8 @@ static bool menu_key(struct desk *d, enum desk_key key, unsigned mods)
 void desk_key(struct desk *d, enum desk_key key, unsigned mods)
 {
 	d->look.focus_kind = HIT_NONE;
+	if (d->drag != DRAG_NONE && key != KEY_ESCAPE && key != KEY_SPACE)
+		return; /* one thing at a time: what is dragged is not there yet */
 	if (key == KEY_SPACE) {
 		if (!d->space && desk_tile_at(d, d->x, d->y) >= 0 && d->page == PAGE_NONE) {
 			d->space = true;
@@ -192,6 +194,8 @@ void desk_command(struct desk *d, uint32_t c)
 
 void desk_text(struct desk *d, uint32_t c)
 {
+	if (d->drag != DRAG_NONE)
+		return;
 	if (c == ' ' && d->space) /* said when the bar goes up, unless it moved the view */
 		return;
 	if (d->page == PAGE_QUESTION) {

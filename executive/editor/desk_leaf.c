@@ -29,6 +29,9 @@ enum tool desk_leaf_tool(const char *code)
 
 static void list_jobs(struct desk *d)
 {
+	static const char *const none[] = { NULL };
+
+	desk_journal(d, "V162", none);
 	desk_set_page(d, PAGE_JOBS);
 }
 
@@ -160,6 +163,24 @@ void desk_run_code(struct desk *d, const char *code, const char *name, const cha
 		desk_run(d, t, &given);
 }
 
+void desk_journal(struct desk *d, const char *code, const char *const *pairs)
+{
+	const char *name[FIELDS_MAX], *value[FIELDS_MAX];
+	struct arguments given = { name, value, 0 };
+	struct report_store store;
+
+	report_store_init(&store);
+	const struct act a = { .world = d->world,
+		               .project = d->house.project,
+		               .report = store.report };
+	for (; pairs[2 * given.n]; given.n++) {
+		name[given.n] = pairs[2 * given.n];
+		value[given.n] = pairs[2 * given.n + 1];
+	}
+	if (journal_write(&a, routine_find(code), &given) != ST_OK)
+		desk_say(d, REPORT_WARNING, "%s", store.error);
+}
+
 static void say_lines(struct desk *d, enum report_level level, const char *lines)
 {
 	while (*lines) {
@@ -209,6 +230,15 @@ void desk_errand_progress(struct desk *d)
 		desk_dirty(d, desk_bit(PART_FOOT));
 }
 
+/* What lies in the project is named from there, so that the journal is right wherever the folder is. */
+const char *desk_near_path(const struct desk *d, const char *path)
+{
+	const char *folder = world_folder(d->world);
+	const size_t n = strlen(folder);
+
+	return !strncmp(path, folder, n) && path[n] == '/' ? path + n + 1 : path;
+}
+
 /* Something of that file is there, as the file has it. */
 static bool is_open(const struct desk *d, const char *path)
 {
@@ -226,7 +256,7 @@ static bool is_open(const struct desk *d, const char *path)
 /* The project's folder is where relative names are looked for; these are the caller's. */
 void desk_open_next(struct desk *d)
 {
-	if (d->errand || d->pending_at >= d->n_pending)
+	if (d->errand || d->drag != DRAG_NONE || d->pending_at >= d->n_pending)
 		return;
 	char *file = d->pending[d->pending_at++];
 	char *path = path_absolute(file, NULL);
@@ -238,15 +268,18 @@ void desk_open_next(struct desk *d)
 		desk_open_next(d);
 		return;
 	}
-	desk_run_code(d, "V175", "file", path ? path : file);
+	desk_run_code(d, "V175", "file", path ? desk_near_path(d, path) : file);
 	free(path);
 	free(file);
 }
 
 /* ------------------------------------------------------------ leaving */
 
-static void leave(struct desk *d)
+static void leave(struct desk *d, const char *jobs)
 {
+	const char *const pairs[] = { "unsaved", "keep", "jobs", jobs, NULL };
+
+	desk_journal(d, "V133", pairs);
 	d->leaving = true;
 	if (d->ports.close)
 		d->ports.close(d->ports.data);
@@ -272,7 +305,7 @@ static void quit_answer(struct desk *d, char key)
 		ask_all(d, MESSAGE_SUSPEND);
 	else if (key == 'K')
 		ask_all(d, MESSAGE_KILL);
-	leave(d);
+	leave(d, key == 'S' ? "suspend" : key == 'K' ? "kill" : "leave");
 }
 
 static int count_unsaved(const struct desk *d, const char **name)
@@ -303,7 +336,7 @@ void desk_quit(struct desk *d)
 	}
 	n = count_unsaved(d, &name);
 	if (!jobs && !n) {
-		leave(d);
+		leave(d, "leave");
 		return;
 	}
 	q.title = strdup(jobs && n ? "Quit with unsaved geometry and unended jobs?"

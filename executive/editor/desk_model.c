@@ -191,6 +191,8 @@ static void foot_of_ask(struct desk *d, struct foot_model *m, struct scraps *s)
 		hint(m, "Tab", "next field");
 	}
 	hint(m, "Enter", "accept");
+	if (d->tool == TOOL_POINTS)
+		hint(m, "Shift", "drags the weight");
 	hint(m, "Esc", "back");
 }
 

@@ -201,6 +201,7 @@ void desk_release(struct desk *d, enum desk_button button)
 	if (d->drag == DRAG_NONE || button != d->drag_button)
 		return;
 	desk_view_release(d);
+	desk_open_next(d); /* files that were dropped meanwhile */
 	desk_dirty(d, DESK_VIEW | desk_bit(PART_MOUSE));
 	desk_world_changed(d);
 }

@@ -38,7 +38,7 @@ void desk_job_open(struct desk *d, const struct Stats *s)
 		if (d->page == PAGE_JOBS)
 			desk_set_page(d, PAGE_NONE);
 		if (path)
-			desk_run_code(d, result_table[row].code, "file", path);
+			desk_run_code(d, result_table[row].code, "file", desk_near_path(d, path));
 		free(path);
 		return;
 	}

@@ -70,9 +70,12 @@ static bool for_background(const struct desk *d)
 	return d->ask.routine && !strcmp(d->ask.routine->code, "V157");
 }
 
+/* Is it the current curve that is colored or changed, not the surface? */
 static bool for_curve(const struct desk *d)
 {
-	return d->ask.routine && !strcmp(d->ask.routine->code, "V44");
+	const char *need = d->ask.routine ? d->ask.routine->needs : NULL;
+
+	return need && strstr(need, "curve");
 }
 
 static void show_color(struct desk *d)

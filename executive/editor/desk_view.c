@@ -43,7 +43,7 @@ bool desk_view_press(struct desk *d, enum desk_button b, unsigned mods)
 	d->camera_before = d->tiles[i].view.camera;
 	memcpy(d->uv_before, d->uv_range, sizeof d->uv_before);
 	d->tiles[i].view.has_pivot = false;
-	if (d->drag == DRAG_POINT && !desk_point_press(d))
+	if (d->drag == DRAG_POINT && !desk_point_press(d, mods & MOD_SHIFT))
 		d->drag = DRAG_NONE;
 	if (d->drag == DRAG_PROBE)
 		desk_probe(d);
@@ -91,6 +91,8 @@ void desk_view_release(struct desk *d)
 		desk_probe_keep(d);
 	if (was == DRAG_POINT)
 		desk_point_release(d, true);
+	if (was == DRAG_KEY && d->drag_moved)
+		desk_key_keep(d);
 	if (was == DRAG_ROTATE || was == DRAG_PAN)
 		desk_dirty(d, DESK_VIEW); /* at rest it is drawn better */
 }

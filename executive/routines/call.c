@@ -92,6 +92,19 @@ static bool auto_is_a_value(const struct argument_row *row)
 	return row->stores || (row->choices && strstr(row->choices, "auto"));
 }
 
+/* As it is to be done again. Who did not say whether to wait saw the result come before going on with it,
+ * or will: the next lines may need it. */
+static enum status write_down(const struct act *a, const struct routine *t,
+                              const struct arguments *full, const struct arguments *given)
+{
+	const bool said = argument_text(given, "wait") != NULL;
+
+	for (int k = 0; k < full->n && !said; k++)
+		if (!strcmp(full->name[k], "wait"))
+			full->value[k] = "yes";
+	return journal_write(a, t, full);
+}
+
 /* The value of each row: given, or the default; rows that are left out are not in the list. */
 static enum status fill_in(const struct routine *t, const struct argument_row *rows,
                            const struct arguments *given, struct arguments *full,
@@ -138,7 +151,7 @@ static enum status call_with_rows(const struct routine *t, struct act *a,
 		st = t->run(a, &full);
 	}
 	if (st == ST_OK && a->journal)
-		st = journal_write(a, t, &full);
+		st = write_down(a, t, &full, given);
 	free(full.name);
 	free(full.value);
 	return st;

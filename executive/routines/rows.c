@@ -46,8 +46,8 @@ const struct argument_row rows_picture[] = {
 	MAY(VIEW, "view", "View", NULL, "from where it is seen; as the window shows it where left out"),
 	END };
 const struct argument_row rows_quit[] = {
-	{ .name = "unsaved", .type = ARGUMENT_CHOICE, .prompt = "Unsaved geometry", .choices = "save|discard",
-	  .optional = true, .help = "what becomes of geometry that is not saved; must be said where there is some" },
+	{ .name = "unsaved", .type = ARGUMENT_CHOICE, .prompt = "Unsaved geometry", .choices = "save|discard|keep",
+	  .optional = true, .help = "what becomes of geometry that is not saved; keep: the next start has it, and a script goes on; must be said where there is some" },
 	CHOICE("jobs", "Running jobs", "leave", "leave|suspend|kill", "what becomes of running jobs"),
 	END };
 

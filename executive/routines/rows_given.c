@@ -150,6 +150,52 @@ static enum status row_of_parameter(struct argument_row *out, const struct routi
 static const struct argument_row row_wait = {
 	.name = "wait", .type = ARGUMENT_YESNO, .prompt = "Wait", .help = "until the job has ended"
 };
+static const struct argument_row row_surfaces = {
+	.name = "surfaces",
+	.type = ARGUMENT_CHOICE,
+	.prompt = "Surfaces",
+	.def = "shown",
+	.choices = "current|shown",
+	.help = "of the current surface, or of each that is shown"
+};
+
+bool routine_takes_surfaces(const struct routine *t)
+{
+	return t->run == job_curvature || t->run == surface_quantity ||
+	       (t->run == job_lines && !strcmp(t->worker, "isophotes")) ||
+	       (t->run == surface_show_lines && !t->detail);
+}
+
+/* Rows that leaves have beside those of the table or of their worker; *rows has grown by them. */
+static enum status add_rows(struct argument_row **rows, const struct routine *t,
+                            const struct act *a)
+{
+	struct argument_row more[2];
+	int n_more = 0;
+	size_t n = 0;
+
+	if (routine_takes_surfaces(t))
+		more[n_more++] = row_surfaces;
+	if (t->worker || t->run == surface_quantity) {
+		more[n_more] = row_wait;
+		more[n_more++].def = a->wait ? "yes" : "no";
+	}
+	while ((*rows)[n].name)
+		n++;
+	struct argument_row *all = reallocarray(*rows, n + (size_t)n_more + 1, sizeof *all);
+	if (!all)
+		return ST_RESOURCE;
+	*rows = all;
+	for (int k = 0; k < n_more; k++) {
+		const bool good = row_own(&all[n], &more[k]);
+		if (!good)
+			row_free(&all[n]);
+		all[n += good] = (struct argument_row){ 0 };
+		if (!good)
+			return ST_RESOURCE;
+	}
+	return ST_OK;
+}
 
 enum status rows_of_worker(struct argument_row **out, const struct routine *t, struct act *a)
 {
@@ -164,7 +210,7 @@ enum status rows_of_worker(struct argument_row **out, const struct routine *t, s
 		st = report_error(&a->report, ST_PARAMETER, "worker '%s' cannot be used: %s",
 		                  t->worker, w ? w->broken : "there is none of that name");
 	const json_t *parameters = w ? json_object_get(w->description, "parameters") : NULL;
-	if (st == ST_OK && !(*out = calloc(json_array_size(parameters) + 2, sizeof **out)))
+	if (st == ST_OK && !(*out = calloc(json_array_size(parameters) + 1, sizeof **out)))
 		st = act_memory(a);
 	json_array_foreach(parameters, k, o)
 	{
@@ -173,11 +219,6 @@ enum status rows_of_worker(struct argument_row **out, const struct routine *t, s
 			continue;
 		if (st == ST_OK && (st = row_of_parameter(&(*out)[n], t, o, a->world)) == ST_OK)
 			n++;
-	}
-	if (st == ST_OK) {
-		struct argument_row row = row_wait;
-		row.def = a->wait ? "yes" : "no";
-		st = row_own(&(*out)[n], &row) ? ST_OK : ST_RESOURCE;
 	}
 	if (st != ST_OK && *out) {
 		(*out)[n].name = NULL;
@@ -188,35 +229,19 @@ enum status rows_of_worker(struct argument_row **out, const struct routine *t, s
 	return st;
 }
 
-/* One more row: wait, for leaves that may start a job. */
-static enum status add_wait(struct argument_row **rows, const struct act *a)
-{
-	size_t n = 0;
-
-	while ((*rows)[n].name)
-		n++;
-	struct argument_row *more = reallocarray(*rows, n + 2, sizeof *more);
-	if (!more)
-		return ST_RESOURCE;
-	struct argument_row row = row_wait;
-	row.def = a->wait ? "yes" : "no";
-	*rows = more;
-	more[n + 1] = (struct argument_row){ 0 };
-	if (row_own(&more[n], &row))
-		return ST_OK;
-	row_free(&more[n]);
-	more[n].name = NULL;
-	return ST_RESOURCE;
-}
-
 enum status routine_rows(struct argument_row **out, const struct routine *t, struct act *a)
 {
+	enum status st;
+
 	if (t->worker)
-		return rows_of_worker(out, t, a);
-	enum status st = rows_copy(out, t->arguments, a->world);
-	if (st == ST_OK && t->run == surface_quantity)
-		st = add_wait(out, a);
+		st = rows_of_worker(out, t, a);
+	else
+		st = rows_copy(out, t->arguments, a->world);
+	if (t->worker && st != ST_OK)
+		return st;
 	if (st == ST_OK)
+		st = add_rows(out, t, a);
+	if (st == ST_OK && !t->worker)
 		st = rows_from_state(*out, t, a->world);
 	if (st != ST_OK) {
 		routine_rows_free(*out);

@@ -38,17 +38,31 @@ enum status job_contours(struct act *a, const struct arguments *given)
 	                 &(struct overlay){ .kind = OVERLAY_LINES });
 }
 
-/* A worker on the current surface. */
-static enum status run_current(struct act *a, json_t *parameters, const char *worker,
-                               const struct overlay *like)
+/* The surfaces that a leaf is for: the current one, or each that is shown. 0, with a sentence: none. */
+static int meant(struct act *a, const struct arguments *given, int **ids)
 {
-	const struct Ful *f = act_current(a, false);
-	struct work_done done;
+	const char *which = argument_text(given, "surfaces");
+	const struct Ful *f;
 
-	if (!f)
-		return ST_PARAMETER;
-	const int id = f->id;
+	if (which && !strcmp(which, "shown"))
+		return work_scene(a, ids);
+	f = act_current(a, false);
+	*ids = f ? malloc(sizeof **ids) : NULL;
+	if (f && !*ids)
+		act_memory(a);
+	if (!*ids)
+		return 0;
+	**ids = f->id;
+	return 1;
+}
+
+/* A worker on one surface. */
+static enum status run_one(struct act *a, json_t *parameters, const char *worker, int id,
+                           const struct overlay *like)
+{
+	struct work_done done;
 	enum status st = work_run(a, worker, parameters, &id, 1, NULL, &done);
+
 	if (st == ST_OK) {
 		st = work_show(a, &done.job, id, like);
 		work_done_finish(&done);
@@ -56,40 +70,52 @@ static enum status run_current(struct act *a, json_t *parameters, const char *wo
 	return st;
 }
 
-static enum status look_at_map(struct act *a)
+/* Likewise on each, a job each. */
+static enum status run_each(struct act *a, const struct arguments *given,
+                            const struct overlay *like, int *ids, int n)
 {
-	const struct Ful *f = world_current(a->world, false);
-	struct display d = f->display;
+	json_t *parameters = work_parameters(given);
+	enum status st = n ? ST_OK : ST_PARAMETER;
+
+	for (int k = 0; k < n && st == ST_OK; k++)
+		st = run_one(a, parameters, a->routine->worker, ids[k], like);
+	json_decref(parameters);
+	return st;
+}
+
+static enum status look_at_map(struct act *a, int id)
+{
+	struct display d = world_by_id(a->world, id)->display;
 
 	d.look = LOOK_MAP;
 	d.on = true;
-	return world_set_display(a->world, f->id, &d);
+	return world_set_display(a->world, id, &d);
 }
 
 enum status job_lines(struct act *a, const struct arguments *given)
 {
 	const struct overlay like = { .kind = OVERLAY_LINES };
+	int *ids;
 
 	if (!strcmp(a->routine->worker, "reflection"))
 		return run_scene(a, given, NULL, &like);
-	json_t *parameters = work_parameters(given);
-	enum status st = run_current(a, parameters, a->routine->worker, &like);
-	json_decref(parameters);
+	const int n = meant(a, given, &ids);
+	enum status st = run_each(a, given, &like, ids, n);
+	free(ids);
 	return st;
 }
 
 enum status job_curvature(struct act *a, const struct arguments *given)
 {
-	json_t *parameters = work_parameters(given);
-	enum status st =
-	        run_current(a, parameters, "curvature",
-	                    &(struct overlay){ .kind = OVERLAY_MAP, .scale = COLORMAP_AUTOMATIC });
+	const struct overlay like = { .kind = OVERLAY_MAP, .scale = COLORMAP_AUTOMATIC };
+	int *ids, n = meant(a, given, &ids);
+	enum status st = run_each(a, given, &like, ids, n);
 
-	json_decref(parameters);
-	if (st == ST_OK) {
+	if (st == ST_OK)
 		world_sight(a->world)->all_curvatures = true;
-		st = look_at_map(a);
-	}
+	for (int k = 0; k < n && st == ST_OK; k++)
+		st = look_at_map(a, ids[k]);
+	free(ids);
 	return st;
 }
 
@@ -131,35 +157,65 @@ static char *find_map(const struct act *a, const struct Ful *f)
 	return path;
 }
 
-enum status surface_quantity(struct act *a, const struct arguments *given)
+/* A job is making it: what has come is shown in another quantity. */
+static bool show_arriving(struct act *a, int id, struct overlay *o)
 {
-	const struct Ful *f = act_current(a, false);
-	struct overlay o = { .kind = OVERLAY_MAP };
-	enum status st = f ? take_key(a, given, &o) : ST_PARAMETER;
+	for (int k = 0; k < world_overlays(a->world); k++) {
+		const struct overlay *there = world_overlay(a->world, k);
+		if (there->kind != OVERLAY_MAP || there->thing != id || !there->job)
+			continue;
+		char *file = strdup(there->file);
+		o->job = there->job;
+		o->file = file;
+		const bool shown = file && world_show(a->world, o) == ST_OK;
+		free(file);
+		o->job = 0;
+		o->file = NULL;
+		return shown;
+	}
+	return false;
+}
 
-	if (st != ST_OK)
-		return st;
-	char *map = find_map(a, f);
-	if (map) {
-		o.thing = f->id;
-		o.file = map;
+static enum status show_quantity(struct act *a, int id, const struct overlay *like)
+{
+	const char *grid = world_default(a->world, "curvature", "grid");
+	struct overlay o = *like;
+	enum status st;
+
+	o.thing = id;
+	o.file = find_map(a, world_by_id(a->world, id));
+	if (o.file) {
 		st = world_show(a->world, &o) == ST_OK ? ST_OK : act_memory(a);
+		free(o.file);
+	} else if (!a->wait && show_arriving(a, id, &o)) {
+		st = ST_OK;
 	} else {
 		json_t *parameters = json_object();
-		const char *grid = world_default(a->world, "curvature", "grid");
 		if (grid)
 			json_object_set_new(parameters, "grid", json_string(grid));
-		st = run_current(a, parameters, "curvature", &o);
+		st = run_one(a, parameters, "curvature", id, &o);
 		json_decref(parameters);
 	}
-	free(map);
+	return st == ST_OK ? look_at_map(a, id) : st;
+}
+
+enum status surface_quantity(struct act *a, const struct arguments *given)
+{
+	struct overlay o = { .kind = OVERLAY_MAP };
+	int *ids, n = meant(a, given, &ids);
+	enum status st = n ? take_key(a, given, &o) : ST_PARAMETER;
+
+	for (int k = 0; k < n && st == ST_OK; k++)
+		st = show_quantity(a, ids[k], &o);
 	if (st == ST_OK) {
 		world_sight(a->world)->all_curvatures = false;
-		st = look_at_map(a);
+		if (n == 1)
+			act_say(a, "%s of %s", quantity_table[o.quantity].title,
+			        world_by_id(a->world, *ids)->name);
+		else
+			act_say(a, "%s of %d surfaces", quantity_table[o.quantity].title, n);
 	}
-	if (st == ST_OK)
-		act_say(a, "%s of %s", quantity_table[o.quantity].title,
-		        world_current(a->world, false)->name);
+	free(ids);
 	return st;
 }
 
@@ -199,14 +255,14 @@ static enum status show_result(struct act *a, const struct arguments *given, con
 
 enum status surface_show_lines(struct act *a, const struct arguments *given)
 {
-	const struct Ful *f = act_current(a, false);
+	const bool reflection = a->routine->detail;
+	int *ids, n = reflection ? work_scene(a, &ids) : meant(a, given, &ids);
+	enum status st = n ? ST_OK : ST_PARAMETER;
 
-	if (!f)
-		return ST_PARAMETER;
-	if (!a->routine->detail)
-		return show_result(a, given, &f->id, 1, ".isophote", "isophotes", "V90");
-	int *ids, n = work_scene(a, &ids);
-	enum status st = show_result(a, given, ids, n, ".reflect", "reflection", "V94");
+	if (n && reflection)
+		st = show_result(a, given, ids, n, ".reflect", "reflection", "V94");
+	for (int k = 0; k < n && !reflection && st == ST_OK; k++)
+		st = show_result(a, given, &ids[k], 1, ".isophote", "isophotes", "V90");
 	free(ids);
 	return st;
 }

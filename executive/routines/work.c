@@ -17,7 +17,7 @@ json_t *work_parameters(const struct arguments *given)
 	json_t *o = json_object();
 
 	for (int k = 0; k < given->n; k++)
-		if (strcmp(given->name[k], "wait"))
+		if (strcmp(given->name[k], "wait") && strcmp(given->name[k], "surfaces"))
 			json_set_text(o, given->name[k], given->value[k]);
 	return o;
 }
@@ -124,28 +124,31 @@ static enum status make_inputs(struct act *a, const int *ids, int n, struct work
 	return st;
 }
 
+/* A job that is being waited for. */
+struct waiting {
+	struct act *act;
+	int64_t id; /* 0: the service has taken none yet */
+	struct Stats last;
+	bool known, failed;
+};
+
 static bool take_new(void *data, const struct Stats *s)
 {
-	struct act *a = data;
+	struct waiting *x = data;
+	struct act *a = x->act;
 
+	x->id = s->id;
 	if (a->n_jobs < (int)(sizeof a->jobs / sizeof *a->jobs))
 		a->jobs[a->n_jobs++] = s->id;
 	return true;
 }
-
-/* A job that is being waited for. */
-struct waiting {
-	struct act *act;
-	struct Stats last;
-	bool known, failed;
-};
 
 static bool take_news(void *data, const struct Stats *s)
 {
 	struct waiting *x = data;
 	const double fraction = stats_fraction(s);
 
-	if (s->id != x->act->jobs[0])
+	if (s->id != x->id)
 		return true;
 	if (x->known)
 		stats_finish(&x->last);
@@ -156,13 +159,9 @@ static bool take_news(void *data, const struct Stats *s)
 	return true;
 }
 
-static json_t *ids_json(const struct act *a)
+static json_t *id_json(const struct waiting *x)
 {
-	json_t *ids = json_array();
-
-	for (int k = 0; k < a->n_jobs; k++)
-		json_array_append_new(ids, json_integer(a->jobs[k]));
-	return json_pack("{s:o}", "jobs", ids);
+	return json_pack("{s:[I]}", "jobs", (json_int_t)x->id);
 }
 
 enum status work_ask(struct act *a, enum message_type type, json_t *body, client_job *on_job,
@@ -182,22 +181,22 @@ enum status work_ask(struct act *a, enum message_type type, json_t *body, client
 }
 
 /* The user wants it to end: the job is killed, on a connection of its own. */
-static enum status give_up(struct act *a)
+static enum status give_up(const struct waiting *x)
 {
-	work_ask(a, MESSAGE_KILL, ids_json(a), NULL, NULL);
-	return report_error(&a->report, ST_CANCELLED, "job %lld was stopped",
-	                    (long long)a->jobs[0]);
+	work_ask(x->act, MESSAGE_KILL, id_json(x), NULL, NULL);
+	return report_error(&x->act->report, ST_CANCELLED, "job %lld was stopped",
+	                    (long long)x->id);
 }
 
 static enum status watch(struct client *c, struct waiting *x)
 {
 	struct act *a = x->act;
 	bool ended = false, gone = false;
-	enum status st = client_send(c, MESSAGE_WATCH, ids_json(a), &a->report);
+	enum status st = client_send(c, MESSAGE_WATCH, id_json(x), &a->report);
 
 	while (st == ST_OK && !ended) {
 		if (a->stop && atomic_load(a->stop))
-			return give_up(a);
+			return give_up(x);
 		st = client_listen(c, LOOK_MS, -1, take_news, x, &ended, &gone, &a->report);
 	}
 	if (st == ST_OK && x->failed)
@@ -226,15 +225,14 @@ static enum status send_and_wait(struct act *a, const struct work_order *o, stru
 	struct waiting x = { .act = a };
 	enum status st = client_connect(&c, a->project, true, &a->report);
 
-	a->n_jobs = 0;
 	if (st == ST_OK)
-		st = work_order_send(o, c, take_new, a, &a->report);
-	if (st == ST_OK && !a->n_jobs)
+		st = work_order_send(o, c, take_new, &x, &a->report);
+	if (st == ST_OK && !x.id)
 		st = report_error(&a->report, ST_INTERNAL, "the service took no job");
 	if (st == ST_OK && a->wait)
 		st = watch(c, &x);
 	if (st == ST_OK && !a->wait) {
-		json_t *body = ids_json(a);
+		json_t *body = id_json(&x);
 		st = client_request(c, MESSAGE_LIST, body, take_news, NULL, &x, &a->report);
 		if (st == ST_OK && !x.known)
 			st = act_memory(a);

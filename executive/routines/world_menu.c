@@ -64,23 +64,96 @@ enum status world_list_jobs(struct act *a, const struct arguments *given)
 	return work_ask(a, MESSAGE_LIST, json_pack("{s:b}", "all", 1), say_job, a);
 }
 
+/* Jobs named, and what is asked of the service about them. */
+struct steering {
+	struct act *act;
+	enum message_type type;
+	const int64_t *ids; /* as given */
+	bool *known;        /* each of them */
+	int n;
+	json_t *now, *waiting; /* those that it can be done to, and to those that wait */
+};
+
+/* What waits cannot be stopped or go on: it is held, or released. */
+static void sort_job(struct steering *x, const struct Stats *s)
+{
+	const bool suspend = x->type == MESSAGE_SUSPEND, activate = x->type == MESSAGE_ACTIVATE;
+	const bool waits = suspend ? s->state == JOB_QUEUED : activate && s->state == JOB_HELD;
+	const bool can = suspend    ? s->state == JOB_RUNNING || s->state == JOB_STARTING
+	                 : activate ? s->state == JOB_SUSPENDED
+	                            : !job_state_table[s->state].over;
+
+	if (can || waits)
+		json_array_append_new(waits ? x->waiting : x->now, json_integer(s->id));
+	else
+		act_say(x->act, "%lld is %s already", (long long)s->id,
+		        job_state_table[s->state].word);
+}
+
+static bool take_state(void *data, const struct Stats *s)
+{
+	struct steering *x = data;
+
+	for (int k = 0; k < x->n; k++)
+		if (x->ids[k] == s->id && !x->known[k]) {
+			x->known[k] = true;
+			sort_job(x, s);
+		}
+	return true;
+}
+
+/* list is stolen. */
+static enum status ask_about(struct act *a, enum message_type type, json_t *list)
+{
+	if (json_array_size(list))
+		return work_ask(a, type, json_pack("{s:o}", "jobs", list), say_job, a);
+	json_decref(list);
+	return ST_OK;
+}
+
+static enum status steer(struct steering *x)
+{
+	const enum message_type of_waiting =
+	        x->type == MESSAGE_SUSPEND ? MESSAGE_HOLD : MESSAGE_RELEASE;
+	enum status st =
+	        work_ask(x->act, MESSAGE_LIST, json_pack("{s:b}", "all", 1), take_state, x);
+
+	for (int k = 0; k < x->n; k++)
+		if (!x->known[k]) /* the service says so */
+			json_array_append_new(x->now, json_integer(x->ids[k]));
+	if (st == ST_OK)
+		st = ask_about(x->act, of_waiting, json_incref(x->waiting));
+	if (st == ST_OK)
+		st = ask_about(x->act, x->type, json_incref(x->now));
+	return st;
+}
+
 enum status world_jobs(struct act *a, const struct arguments *given)
 {
 	const char *p = argument_text(given, "jobs"), *end = p + strlen(p);
-	json_t *ids = json_array();
-	int64_t id;
+	const size_t room = strlen(p) + 1;
+	struct steering x = { .act = a,
+		              .type = (enum message_type)a->routine->detail,
+		              .known = calloc(room, sizeof *x.known),
+		              .now = json_array(),
+		              .waiting = json_array() };
+	int64_t *ids = calloc(room, sizeof *ids);
+	enum status st = ids && x.known ? ST_OK : act_memory(a);
 
-	if (!strcmp(p, "all")) {
-		json_decref(ids);
-		return work_ask(a, (enum message_type)a->routine->detail,
-		                json_pack("{s:b}", "all", 1), say_job, a);
-	}
-	while (number_read_integer(&p, end, &id)) {
-		json_array_append_new(ids, json_integer(id));
+	while (st == ST_OK && number_read_integer(&p, end, &ids[x.n])) {
+		x.n++;
 		p += *p == ',';
 	}
-	return work_ask(a, (enum message_type)a->routine->detail, json_pack("{s:o}", "jobs", ids),
-	                say_job, a);
+	x.ids = ids;
+	if (st == ST_OK && x.n)
+		st = steer(&x);
+	else if (st == ST_OK) /* all */
+		st = work_ask(a, x.type, json_pack("{s:b}", "all", 1), say_job, a);
+	json_decref(x.now);
+	json_decref(x.waiting);
+	free(x.known);
+	free(ids);
+	return st;
 }
 
 /* Middle of what is shown, and half its diagonal. */
@@ -188,7 +261,7 @@ enum status world_quit(struct act *a, const struct arguments *given)
 
 	if (n && !unsaved)
 		return report_error(&a->report, ST_PARAMETER,
-		                    "%d %s not saved; give unsaved=save or unsaved=discard", n,
+		                    "%d %s not saved; give unsaved=save, discard or keep", n,
 		                    n == 1 ? "thing is" : "things are");
 	if (n && !strcmp(unsaved, "save"))
 		st = save_all(a);
@@ -196,6 +269,7 @@ enum status world_quit(struct act *a, const struct arguments *given)
 		st = end_jobs(a, !strcmp(jobs, "kill") ? MESSAGE_KILL : MESSAGE_SUSPEND);
 	if (st == ST_OK && n && !strcmp(unsaved, "discard"))
 		world_discard(a->world);
-	a->quit = st == ST_OK;
+	/* the journal goes on with what the next session does with it */
+	a->quit = st == ST_OK && !(unsaved && !strcmp(unsaved, "keep"));
 	return st;
 }

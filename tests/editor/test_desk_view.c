@@ -255,6 +255,116 @@ static void a_drag_of_a_point_is_one_step(void **state)
 	assert_true(vec3_length(vec3_sub(after, before)) == 0);
 }
 
+/* A curve of order 3 on the plate, through its middle; its id. */
+static int add_curve_on(struct stand *s, int surface)
+{
+	static const double uv[3][2] = { { 0.1, 0.1 }, { 0.5, 0.9 }, { 0.9, 0.1 } };
+	const struct origin from = { .on = surface };
+	struct entity e;
+	int id = 0;
+
+	entity_init(&e, ENTITY_CURVE_ON_SURFACE);
+	assert_int_equal(curve_init(&e.curve, 3, 3), ST_OK);
+	for (int i = 0; i < 3; i++)
+		curve_set_point(&e.curve, i, vec3(uv[i][0], uv[i][1], 0), 1);
+	for (int k = 3; k < 6; k++)
+		e.curve.knots[k] = 1;
+	e.curve.domain[1] = 1;
+	assert_int_equal(world_add_from(s->world, "curve", "keel", &e, &from, &id, NULL), ST_OK);
+	desk_resize(s->desk, 1280, 800, 1);
+	return id;
+}
+
+static struct vec3 point_of(struct stand *s, int id, int i, double *weight)
+{
+	return curve_get_point(&world_by_id(s->world, id)->entity.curve, i, weight);
+}
+
+static void points_of_a_curve_on_a_surface_are_dragged_in_both_views(void **state)
+{
+	struct stand *s = *state;
+	int plate = stand_add_plate(s, "plate"), id = add_curve_on(s, plate), n;
+
+	stand_key(s, KEY_HOME);
+	stand_leaf(s, "V188");
+	stand_click_with(s, HIT_CHOICE, 0, 3, 0);
+	stand_key(s, KEY_ENTER);
+	stand_leaf(s, "V117");
+	assert_string_equal(desk_menu_model(s->desk)->form_code, "V117");
+	struct box_px b = panel_uv_square(&desk_tiles(s->desk, &n)[1].box);
+	/* the range seen has a margin of 4 % */
+	double side = b.width / 1.08, left = b.x + 0.04 * side, low = b.y + 1.04 * side;
+	desk_move(s->desk, left + 0.5 * side, low - 0.9 * side);
+	desk_press(s->desk, BUTTON_LEFT, 0);
+	assert_string_equal(desk_menu_model(s->desk)->fields[0].value, "1");
+	desk_move(s->desk, left + 0.6 * side, low - 0.8 * side);
+	desk_move(s->desk, left + 0.75 * side, low - 0.25 * side);
+	struct vec3 p = point_of(s, id, 1, NULL);
+	assert_true(fabs(p.x - 0.75) < 1e-6 && fabs(p.y - 0.25) < 1e-6);
+	stand_key(s, KEY_ESCAPE); /* taken back */
+	p = point_of(s, id, 1, NULL);
+	assert_true(p.x == 0.5 && p.y == 0.9);
+	assert_string_equal(desk_menu_model(s->desk)->form_code, "V117");
+	/* beside the domain it stays at the border's last place inside */
+	desk_move(s->desk, left + 0.5 * side, low - 0.9 * side);
+	desk_press(s->desk, BUTTON_LEFT, 0);
+	desk_move(s->desk, left + 0.5 * side, low - 0.95 * side);
+	desk_move(s->desk, left + 0.5 * side, b.y - 30);
+	desk_release(s->desk, BUTTON_LEFT);
+	p = point_of(s, id, 1, NULL);
+	assert_true(fabs(p.y - 0.95) < 1e-6);
+	assert_int_equal(world_current(s->world, true)->id, id);
+	assert_string_equal(world_undo_name(s->world), "move point 1");
+	stand_paint(s);
+	/* in the other view: where the eye sees the surface */
+	s->pick = (struct pick){ .thing = id, .is_point = true, .index = 1 };
+	desk_move(s->desk, 200, 300);
+	desk_press(s->desk, BUTTON_LEFT, 0);
+	s->pick = (struct pick){ .thing = plate, .u = 0.3, .v = 0.2 };
+	desk_move(s->desk, 260, 320);
+	desk_release(s->desk, BUTTON_LEFT);
+	p = point_of(s, id, 1, NULL);
+	assert_true(p.x == 0.3 && p.y == 0.2);
+	stand_key(s, KEY_ESCAPE);
+	stand_type(s, "zz");
+	p = point_of(s, id, 1, NULL);
+	assert_true(p.x == 0.5 && p.y == 0.9);
+}
+
+static void weights_are_dragged_with_shift(void **state)
+{
+	struct stand *s = *state;
+	int plate = stand_add_plate(s, "plate"), id = add_curve_on(s, plate);
+	double w;
+
+	stand_key(s, KEY_HOME);
+	stand_leaf(s, "V117");
+	s->pick = (struct pick){ .thing = id, .is_point = true, .index = 1 };
+	desk_move(s->desk, 400, 400);
+	desk_press(s->desk, BUTTON_LEFT, MOD_SHIFT);
+	desk_move(s->desk, 410, 360);
+	desk_move(s->desk, 420, 320); /* 80 px up: twice as heavy */
+	point_of(s, id, 1, &w);
+	assert_true(fabs(w - 2) < 1e-9);
+	assert_true(world_by_id(s->world, id)->entity.curve.rational);
+	assert_string_equal(stand_field(s, "To")->value, "");
+	stand_type(s, "z"); /* nothing is undone while it is held */
+	desk_release(s->desk, BUTTON_LEFT);
+	struct vec3 p = point_of(s, id, 1, &w);
+	assert_true(fabs(w - 2) < 1e-9 && fabs(p.x - 0.5) < 1e-12);
+	stand_key(s, KEY_ESCAPE);
+	stand_type(s, "z");
+	point_of(s, id, 1, &w);
+	assert_true(w == 1);
+	stand_leaf(s, "V127"); /* of a surface, and typed */
+	stand_type(s, "1,2");
+	stand_click(s, HIT_FIELD, 2);
+	stand_type(s, "0.5");
+	stand_key(s, KEY_ENTER);
+	surface_get_point(&world_by_id(s->world, plate)->entity.geometry, 1, 2, &w);
+	assert_true(w == 0.5);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, stand_set_up, stand_tear_down)
 
 int main(void)
@@ -268,6 +378,8 @@ int main(void)
 		TEST(the_light_is_dragged_live_and_taken_back),
 		TEST(a_color_is_seen_while_it_is_chosen),
 		TEST(a_drag_of_a_point_is_one_step),
+		TEST(points_of_a_curve_on_a_surface_are_dragged_in_both_views),
+		TEST(weights_are_dragged_with_shift),
 	};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -27,7 +27,7 @@ def test_a_code_is_explained(project):
 def test_a_code_as_json(project):
     row, = project.json("batten", "help", "V80")["help"]
     assert row["code"] == "V80" and row["path"].endswith(" > CURVATURE > GAUSSIAN")
-    assert [a["name"] for a in row["arguments"]] == ["range", "scale", "symmetric", "wait"]
+    assert [a["name"] for a in row["arguments"]] == ["range", "scale", "symmetric", "surfaces", "wait"]
     assert all(a["range"] and a["help"] for a in row["arguments"])
     assert "V79" in row["see"] and row["purpose"] and row["result"] and row["example"].startswith("V80")
     menu, = project.json("batten", "help", "N31")["help"]
@@ -60,7 +60,7 @@ def test_help_of_jobs_names_arguments_of_their_workers(project):
         row, = project.json("batten", "help", code)["help"]
         named = {a["name"] for a in row["arguments"]}
         takes = {p["name"] for p in workers[worker]["parameters"]}
-        assert "wait" in named and named - {"wait"} <= takes, (code, named - takes)
+        assert "wait" in named and named - {"wait", "surfaces"} <= takes, (code, named - takes)
         if code != "V170":  # planes and cylinders share one worker
             assert takes - named <= {"cylinder"}, (code, takes - named)
 
