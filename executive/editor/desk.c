@@ -287,12 +287,12 @@ bool desk_back(struct desk *d)
 		return true;
 	}
 	if (d->ask.routine) {
-		desk_tool_end(d, false);
+		desk_tool_end(d);
 		desk_ask_end(d);
 		return true;
 	}
 	if (d->tool != TOOL_NONE) {
-		desk_tool_end(d, false);
+		desk_tool_end(d);
 		return true;
 	}
 	if (d->probe_shown) {

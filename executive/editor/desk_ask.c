@@ -234,7 +234,7 @@ void desk_ask_accept(struct desk *d)
 	/* the form goes before the routine runs: what it changes is not taken back with the form */
 	struct ask kept = *a;
 	*a = (struct ask){ 0 };
-	desk_tool_end(d, true);
+	desk_tool_end(d);
 	desk_run(d, kept.routine, &given);
 	struct ask fresh = *a;
 	*a = kept;

@@ -311,7 +311,7 @@ void desk_probe_hide(struct desk *d);
 
 /* desk_tools.c, desk_points.c */
 void desk_tool_begin(struct desk *d, enum tool tool);
-void desk_tool_end(struct desk *d, bool keep);
+void desk_tool_end(struct desk *d);
 void desk_tool_changed(struct desk *d); /* a field of the form was typed: show it */
 bool desk_tool_press(struct desk *d, const struct hit *h);
 void desk_tool_move(struct desk *d);

@@ -41,7 +41,7 @@ static void shown(struct desk *d)
 /* What is asked belongs to the menu one leaves. */
 static void leave_form(struct desk *d)
 {
-	desk_tool_end(d, false);
+	desk_tool_end(d);
 	desk_ask_end(d);
 }
 

@@ -208,21 +208,21 @@ void desk_tool_begin(struct desk *d, enum tool tool)
 	desk_world_changed(d);
 }
 
-void desk_tool_end(struct desk *d, bool keep)
+/* What was seen was a preview; what is kept is what the routine does. */
+void desk_tool_end(struct desk *d)
 {
 	enum tool was = d->tool;
 
 	if (was == TOOL_NONE || d->errand)
 		return;
 	d->tool = TOOL_NONE;
-	if (!keep && (was == TOOL_LIGHT || was == TOOL_COLOR)) {
+	if (was == TOOL_LIGHT || was == TOOL_COLOR) {
 		struct sight *s = world_sight(d->world);
 		struct camera camera = s->camera; /* turned meanwhile: that stays */
 		*s = d->sight_before;
 		s->camera = camera;
 	}
-	if (d->display_thing && (!keep || was == TOOL_POINTS) &&
-	    world_by_id(d->world, d->display_thing))
+	if (d->display_thing && world_by_id(d->world, d->display_thing))
 		world_set_display(d->world, d->display_thing, &d->display_before);
 	d->display_thing = 0;
 	for (int i = 0; i < d->n_tiles; i++) {

@@ -38,6 +38,29 @@ static int count_numbered(const struct model *m)
 	return n;
 }
 
+static enum status add_trim(struct model *m, int surface, const struct curve *c)
+{
+	struct entity e;
+
+	entity_init(&e, ENTITY_CURVE_ON_SURFACE);
+	e.surface = surface;
+	e.used = true;
+	enum status st = curve_copy(&e.curve, c);
+	return st == ST_OK ? model_add(m, &e) : st;
+}
+
+enum status world_add_trims(struct model *m)
+{
+	const int n = m->n;
+	enum status st = ST_OK;
+
+	for (int k = 0; k < n; k++)
+		for (int i = 0; i < m->entities[k].trim.n; i++)
+			for (int c = 0; c < m->entities[k].trim.loops[i].n && st == ST_OK; c++)
+				st = add_trim(m, k, &m->entities[k].trim.loops[i].curves[c]);
+	return st;
+}
+
 /* Its place in the file as a name: hull, or hull-3 where the file holds several. */
 static char *file_name_of(const char *basic, bool several, const struct entity *e)
 {
@@ -146,6 +169,17 @@ static enum status take(struct world *w, struct model *m, const char *path, cons
 	return st == ST_OK ? st : out_of_memory(r);
 }
 
+/* The curves that trim a surface stand for it where curves on surfaces are wanted. */
+static void choose_trims(const struct model *m, int first, bool given, bool *chosen)
+{
+	for (int k = first; k < m->n; k++)
+		chosen[k] = !given || chosen[m->entities[k].surface];
+	for (int k = 0; k < first; k++)
+		for (int c = first; c < m->n && given && chosen[k]; c++)
+			if (m->entities[c].surface == k)
+				chosen[k] = false;
+}
+
 /* Those of the kinds wanted. Errors: ST_INPUT where there is none. */
 static enum status choose_kinds(const struct model *m, unsigned kinds, bool given, bool *chosen,
                                 const struct report *r)
@@ -156,7 +190,7 @@ static enum status choose_kinds(const struct model *m, unsigned kinds, bool give
 		const struct entity *e = &m->entities[k];
 		const bool wanted = kinds & 1u << e->kind;
 		if (!given)
-			chosen[k] = wanted && e->number > 0;
+			chosen[k] |= wanted && e->number > 0;
 		else if (chosen[k] && !wanted)
 			return report_error(r, ST_INPUT, "entity %d of '%s' is a %s", e->number,
 			                    m->file, entity_kind_name(e->kind));
@@ -178,11 +212,17 @@ enum status world_open_kinds(struct world *w, const char *path, const char *enti
 		free(full);
 		return st;
 	}
+	const bool trims = kinds == 1u << ENTITY_CURVE_ON_SURFACE;
+	const int n = m.n;
+	if (trims)
+		st = world_add_trims(&m);
 	bool *chosen = calloc((size_t)m.n + 1, sizeof *chosen);
-	if (!chosen)
+	if (!chosen || st != ST_OK)
 		st = out_of_memory(r);
 	if (st == ST_OK && entities)
 		st = choose(&m, entities, chosen, r);
+	if (st == ST_OK && trims)
+		choose_trims(&m, n, entities != NULL, chosen);
 	if (st == ST_OK)
 		st = choose_kinds(&m, kinds, entities != NULL, chosen, r);
 	if (st == ST_OK) {

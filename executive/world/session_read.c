@@ -110,6 +110,7 @@ static void sight_read(struct sight *s, const json_t *o)
 /* The file read last, since things of one file follow each other. */
 struct source {
 	const struct world *world;
+	bool trims; /* are among the model's entities, too */
 	char *path;
 	struct model m;
 };
@@ -134,9 +135,15 @@ static enum status source_open(struct source *s, const char *path, const struct 
 }
 
 /* Its entity in the file, where that is still one of its kind. */
-static const struct entity *source_find(const struct source *s, const json_t *o, bool kept)
+static const struct entity *source_find(struct source *s, const json_t *o, bool kept)
 {
 	const int64_t place = kept ? 0 : json_int(o, "place", 0);
+
+	if (place >= s->m.n && !s->trims) {
+		s->trims = true;
+		if (world_add_trims(&s->m) != ST_OK)
+			return NULL;
+	}
 	const struct entity *e = place < 0 || place >= s->m.n ? NULL : &s->m.entities[place];
 
 	return e && !strcmp(entity_kind_name(e->kind), json_text(o, "kind", "")) ? e : NULL;

@@ -131,8 +131,9 @@ void world_set_reader(struct world *w, world_reader *read, void *data);
  * Not an edit that undo takes back. Errors: as model_read. */
 enum status world_open(struct world *w, const char *path, const char *entities,
                        const struct progress *p, const struct report *r);
-/* Likewise only those whose kind is in `kinds` (a bit 1 << enum entity_kind each), and the surfaces of curves
- * on surface. Errors: ST_INPUT where there are none, or one chosen is of another kind. */
+/* Likewise only those whose kind is in `kinds` (a bit 1 << enum entity_kind each), and the surfaces of
+ * curves on surface. Where curves on surface alone are wanted they are also those that trim a surface; who
+ * chooses a surface chooses its. Errors: ST_INPUT where there are none, or one chosen is of another kind. */
 enum status world_open_kinds(struct world *w, const char *path, const char *entities,
                              unsigned kinds, const struct progress *p, const struct report *r);
 

@@ -72,6 +72,8 @@ enum status name_check(const struct world *w, int id, const char *name, const st
 /* open.c: by the reader set, or model_read. */
 enum status world_read(const struct world *w, struct model *out, const char *path,
                        const struct progress *p, const struct report *r);
+/* The curves that trim surfaces as curves on them, behind all that the file has. */
+enum status world_add_trims(struct model *m);
 void world_stamp(const char *path, int64_t stamp[3]); /* zeros: it is not there */
 
 /* history.c */

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "file.h"
 #include "path.h"
 #include "text.h"
 
@@ -44,6 +45,16 @@ static bool port_start(void *data, struct errand *e)
 	return s->keep_errands;
 }
 
+enum status stand_picture(const struct world *w, const char *path, const char *view, int width,
+                          int height, const struct report *r)
+{
+	(void)w;
+	(void)view;
+	(void)width;
+	(void)height;
+	return file_write(path, "a picture", 9, r);
+}
+
 static bool port_pick(void *data, const struct view_state *v, double x, double y, bool points,
                       int skip, struct pick *out)
 {
@@ -67,6 +78,7 @@ int stand_set_up(void **state)
 	struct desk_ports ports = { .pick = port_pick,
 		                    .ask_jobs = port_ask,
 		                    .start = port_start,
+		                    .picture = stand_picture,
 		                    .bell = port_bell,
 		                    .close = port_close,
 		                    .data = s };

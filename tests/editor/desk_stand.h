@@ -43,6 +43,7 @@ int stand_row_of(struct stand *s, const char *name);
 const struct menu_row *stand_row(struct stand *s, const char *name);
 const struct form_field *stand_field(struct stand *s, const char *label);
 
+errand_picture stand_picture; /* of EXPORT PICTURE: a few bytes */
 void stand_put_job(struct stand *s, int64_t id, enum job_state state, const char *reason);
 void stand_some_jobs(struct stand *s); /* 1 running, 2 suspended, 3 failed, 4 queued */
 

@@ -1,0 +1,478 @@
+/* test_desk_journal.c - every leaf that can be run, chosen at the desk: the journal of it, done elsewhere by
+ * `batten script`, gives the same files, and done by the routines the same world. */
+#include <dirent.h>
+#include <glob.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base.h"
+#include "client.h"
+#include "construct.h"
+#include "desk_stand.h"
+#include "file.h"
+#include "json.h"
+#include "model_write.h"
+#include "open.h"
+#include "path.h"
+#include "text.h"
+
+/* What is chosen, and what is typed; a star in a file's name is the one result that fits. */
+static const char *const steps[] = {
+	"V175 file=spheres.base",
+	"V5 name=ball.base",
+	"V1 name=rod.base",
+	"V9 name=diagonal.base",
+	"V23 name=points.base",
+	"V178 entities=ball,rod to=some.igs",
+	"V6 file=some.igs entity=1",
+	"V2 file=some.igs",
+	"V10 file=trimmed.igs",
+	"V25 points=0,0,0;1,1,0;2,0,1;3,1,2;4,4,4 order=4 name=fitted",
+	"V30 curves=rod,fitted reverse=yes name=ruled",
+	"V160 curve=fitted",
+	"V43 segments=20",
+	"V44 color=#112233",
+	"V45 view=front",
+	"V46 samples=50",
+	"V47 scale=0.3 save=comb.csv",
+	"V49",
+	"V48",
+	"V106 index=1 to=1,2,3 weight=2",
+	"V107 order=5",
+	"V108 knots=0.3,0.4",
+	"V109 at=0.5",
+	"V160 curve=diagonal",
+	"V50 segments=30",
+	"V51 linetype=dashed",
+	"V52 view=top",
+	"V53 samples=40",
+	"V54 scale=0.2",
+	"V56",
+	"V55",
+	"V117 index=0 to=0.5,-0.5",
+	"V118 knots=0.4",
+	"V119 at=0.5",
+	"V181 name=ruled discard=yes",
+	"V159 surface=ball",
+	"V57 lines_u=5 lines_v=4",
+	"V58 color=#AABBCC",
+	"V59 view=left",
+	"V60 count=3",
+	"V61 point=0,0,0 normal=0,0,1",
+	"V62 distance=0.25",
+	"V63 tolerance_uv=0.001",
+	"V64 tolerance=0.001",
+	"V65 count=2",
+	"V66 point=0,0,0 axis=0,0,1 radius=0.5",
+	"V67 distance=0.25",
+	"V68 tolerance_uv=0.001",
+	"V69 tolerance=0.001",
+	"V72 color=#FF0000",
+	"V73 intensity=0.9 azimuth=30 incidence=40",
+	"V74 view=back",
+	"V77 color=#334455 specular=0.5",
+	"V87 view=-40,10",
+	"V88 count=2",
+	"V92 count=3 spacing=0.5",
+	"V173 grid=48x32",
+	"V174 grid=16x12",
+	"V99 on=no",
+	"V99 on=yes",
+	"V71",
+	"V76 size=32x24 samples=1",
+	"V79",
+	"V90",
+	"V94",
+	"V168",
+	"V170",
+	"V70 file=*.shade.exr",
+	"V75 file=*.trace.exr",
+	"V78 file=ball.map.exr",
+	"V89 file=ball.isophote",
+	"V93 file=*.reflect",
+	"V80 range=-2,2 scale=linear",
+	"V81",
+	"V82 surfaces=current",
+	"V83",
+	"V84",
+	"V85",
+	"V86 symmetric=no",
+	"V91",
+	"V95",
+	"V169",
+	"V171 on=no",
+	"V127 index=1,1 to=2,2,2",
+	"V80 surfaces=current", /* what is there is of another shape */
+	"V128 along=u order=4",
+	"V129 along=v knots=0.5",
+	"V130 along=u at=0.5",
+	"V157 color=#203040",
+	"V166 field=25",
+	"V167 on=no",
+	"V188 views=side",
+	"V162",
+	"V163",
+	"V164",
+	"V165",
+	"V184 plane=x",
+	"V185 by=1,0,0",
+	"V186 angle=30",
+	"V187 factor=2",
+	"V182",
+	"V183",
+	"V180 name=renamed",
+	"V176",
+	"V177 name=mine",
+	"V179 to=picture.png",
+	"V178 entities=all to=final.base",
+	"V133",
+};
+enum { N_STEPS = sizeof steps / sizeof *steps };
+
+/* ------------------------------------------------------------ jobs */
+
+struct news {
+	struct stand *stand;
+	bool alive;
+};
+
+static bool take_record(void *data, const struct Stats *s)
+{
+	struct news *n = data;
+
+	n->alive |= !job_state_table[s->state].over;
+	assert_int_equal(job_shelf_put(desk_shelf(n->stand->desk), s), ST_OK);
+	return true;
+}
+
+/* In the project's folder. */
+static int run_in(const char *folder, const char *arguments)
+{
+	char *command = text_print("cd %s && %s %s", folder, getenv("BATTEN_PROGRAM"), arguments);
+	int how = system(command);
+
+	free(command);
+	return WIFEXITED(how) ? WEXITSTATUS(how) : -1;
+}
+
+/* Every job has ended, and the desk knows. */
+static void wait_for_jobs(struct stand *s)
+{
+	struct news n = { s, false };
+	struct client *c;
+
+	run_in(s->folder, "wait");
+	assert_int_equal(client_connect(&c, &s->project, false, NULL), ST_OK);
+	assert_int_equal(client_request(c, MESSAGE_LIST, json_pack("{s:b}", "all", 1), take_record,
+	                                NULL, &n, NULL),
+	                 ST_OK);
+	client_close(c);
+	assert_false(n.alive);
+	desk_jobs_changed(s->desk, LINK_UP, "");
+}
+
+/* A job that is over stands in the list as if it ran: it can be steered whatever the machine's pace. */
+static void steer_a_job(struct stand *s, const char *code)
+{
+	stand_put_job(s, 1, strcmp(code, "V164") ? JOB_RUNNING : JOB_SUSPENDED, NULL);
+	desk_jobs_changed(s->desk, LINK_UP, "");
+	stand_leaf(s, code);
+	for (int k = 0; k < desk_jobs_model(s->desk)->n; k++)
+		stand_key(s, KEY_DOWN);
+	stand_type(s, !strcmp(code, "V163") ? "s" : !strcmp(code, "V164") ? "a" : "ky");
+	stand_key(s, KEY_ESCAPE);
+	wait_for_jobs(s);
+}
+
+/* ------------------------------------------------------------ hands */
+
+/* Which field of the form has that name, and its row. */
+static int find_row(struct stand *s, const struct routine *t, const char *name,
+                    struct argument_row *out)
+{
+	struct act a = { .world = s->world, .project = &s->project };
+	struct argument_row *rows;
+	int at = -1;
+
+	assert_int_equal(routine_rows(&rows, t, &a), ST_OK);
+	for (int k = 0; rows[k].name; k++)
+		if (!strcmp(rows[k].name, name)) {
+			at = k;
+			*out = rows[k];
+		}
+	if (at < 0)
+		fail_msg("%s has no argument %s", t->code, name);
+	routine_rows_free(rows);
+	return at;
+}
+
+static void fill_field(struct stand *s, const struct routine *t, const char *name,
+                       const char *value)
+{
+	struct argument_row row = { 0 };
+	const int at = find_row(s, t, name, &row);
+
+	for (int k = 0; k < 64 && !desk_menu_model(s->desk)->fields[at].focused; k++)
+		desk_key(s->desk, KEY_TAB, MOD_SHIFT);
+	assert_true(desk_menu_model(s->desk)->fields[at].focused);
+	if (row.type == ARGUMENT_CHOICE || row.type == ARGUMENT_YESNO) {
+		for (int k = 0; k < 16; k++)
+			if (strcmp(desk_menu_model(s->desk)->fields[at].value, value))
+				desk_key(s->desk, KEY_RIGHT, 0);
+	} else {
+		desk_key(s->desk, KEY_CTRL_A + 'U' - 'A', MOD_CTRL);
+		for (; *value; value++)
+			desk_text(s->desk, (unsigned char)*value);
+	}
+}
+
+/* The one file that fits a name with a star. Fresh. */
+static char *find_file(struct stand *s, const char *value)
+{
+	char *pattern = text_print("%s/%s", s->folder, value), *out = NULL;
+	glob_t found;
+
+	if (*value == '*') {
+		assert_int_equal(glob(pattern, 0, NULL, &found), 0);
+		assert_int_equal(found.gl_pathc, 1);
+		out = strdup(path_file_name(found.gl_pathv[0]));
+		globfree(&found);
+	}
+	free(pattern);
+	return out ? out : strdup(value);
+}
+
+static void choose(struct stand *s, const char *step)
+{
+	char *copy = strdup(step), *rest = copy, *code = strsep(&rest, " "), *pair;
+	const struct routine *t = routine_find(code);
+
+	stand_leaf(s, code);
+	while ((pair = strsep(&rest, " "))) {
+		char *value = strchr(pair, '=');
+		*value++ = 0;
+		char *given = find_file(s, value);
+		fill_field(s, t, pair, given);
+		free(given);
+	}
+	if (desk_menu_model(s->desk)->form_code)
+		stand_key(s, KEY_ENTER);
+	const struct foot_model *m = desk_foot_model(s->desk);
+	if (m->level == REPORT_ERROR || desk_menu_model(s->desk)->form_code)
+		fail_msg("%s: %s", step, m->message);
+	stand_key(s, KEY_ESCAPE);
+	if (t->kind == ROUTINE_JOB || (t->detail < N_QUANTITIES && !strncmp(code, "V8", 2)))
+		wait_for_jobs(s);
+	free(copy);
+}
+
+/* ------------------------------------------------------------ folders */
+
+/* A plane of which a triangle is left. */
+static void write_trimmed(const char *folder)
+{
+	static const double corner[4][2] = { { 1, 1 }, { 5, 1 }, { 3, 1.8 }, { 1, 1 } };
+	struct trim_loop loop = { .outer = true };
+	struct model m;
+	struct entity e;
+	struct curve c;
+
+	model_init(&m);
+	m.unit_in_mm = 1000;
+	assert_int_equal(model_set_text(&m.unit, "m"), ST_OK);
+	entity_init(&e, ENTITY_SURFACE);
+	assert_int_equal(make_sphere(&e.geometry, vec3(0, 0, 0), 2), ST_OK);
+	for (int k = 0; k < 3; k++) {
+		assert_int_equal(make_line(&c, vec3(corner[k][0], corner[k][1] - 1, 0),
+		                           vec3(corner[k + 1][0], corner[k + 1][1] - 1, 0)),
+		                 ST_OK);
+		assert_int_equal(trim_loop_add(&loop, &c), ST_OK);
+	}
+	assert_int_equal(trim_add(&e.trim, &loop), ST_OK);
+	assert_int_equal(model_add(&m, &e), ST_OK);
+	model_number(&m);
+	char *path = path_join(folder, "trimmed.igs");
+	assert_int_equal(model_write(&m, model_format_find(path, NULL), path, 0, 15,
+	                             &(struct mesh_figures){ 0 }, NULL),
+	                 ST_OK);
+	free(path);
+	model_finish(&m);
+}
+
+static void write_inputs(const char *folder)
+{
+	const struct place p = { .folder = (char *)(size_t)folder };
+	struct model m;
+	struct entity e;
+	char *path;
+
+	place_spheres(&p, "spheres.base", 2);
+	place_spheres(&p, "ball.base", 1);
+	place_diagonal(&p, "diagonal.base");
+	model_init(&m);
+	m.unit_in_mm = 1000;
+	assert_int_equal(model_set_text(&m.unit, "m"), ST_OK);
+	place_line(&e, 3);
+	assert_int_equal(model_add(&m, &e), ST_OK);
+	path = path_join(folder, "rod.base");
+	assert_int_equal(base_write(&m, path, NULL), ST_OK);
+	free(path);
+	entity_finish(&m.entities[0]);
+	entity_init(&m.entities[0], ENTITY_POINTS);
+	m.entities[0].points = (struct point_list){ 2, 3, calloc(6, sizeof(double)) };
+	m.entities[0].number = 1;
+	path = path_join(folder, "points.base");
+	assert_int_equal(base_write(&m, path, NULL), ST_OK);
+	free(path);
+	model_finish(&m);
+	write_trimmed(folder);
+}
+
+static char *read_text(const char *folder, const char *name)
+{
+	char *path = path_join(folder, name), *text = NULL;
+	size_t n;
+
+	if (file_read(path, 1 << 26, &text, &n, NULL) != ST_OK)
+		fail_msg("%s is not there", path);
+	free(path);
+	return text;
+}
+
+/* All files but pictures, which are not drawn here. How many. */
+static int same_files(const char *a, const char *b)
+{
+	DIR *d = opendir(a);
+	struct dirent *e;
+	int n = 0;
+
+	while ((e = readdir(d))) {
+		char *here, *there, *text[2];
+		size_t size[2];
+		if (e->d_name[0] == '.' || path_has_suffix(e->d_name, ".png"))
+			continue;
+		here = path_join(a, e->d_name);
+		there = path_join(b, e->d_name);
+		assert_int_equal(file_read(here, 1 << 26, &text[0], &size[0], NULL), ST_OK);
+		if (file_read(there, 1 << 26, &text[1], &size[1], NULL) != ST_OK)
+			fail_msg("%s is not there", there);
+		if (size[0] != size[1] || memcmp(text[0], text[1], size[0]))
+			fail_msg("%s differs from %s", here, there);
+		for (int k = 0; k < 2; k++)
+			free(text[k]);
+		free(here);
+		free(there);
+		n++;
+	}
+	closedir(d);
+	return n;
+}
+
+/* The session without what is the window's alone and what the disk says; paths from the folder. */
+static char *session_of(struct world *w, const char *folder)
+{
+	size_t k;
+	json_t *o, *x;
+
+	assert_int_equal(world_keep_session(w, NULL), ST_OK);
+	char *text = read_text(folder, ".batten/session/session.json");
+	for (char *p = text; (p = strstr(p, folder));)
+		memset(p, '_', strlen(folder));
+	assert_int_equal(json_parse_object(text, strlen(text), "session", &o, NULL), ST_OK);
+	free(text);
+	json_object_del(json_object_get(o, "sight"), "camera");
+	json_object_del(json_object_get(o, "sight"), "beside");
+	json_array_foreach(json_object_get(o, "things"), k, x) json_object_del(x, "stamp");
+	text = json_write(o, true);
+	json_decref(o);
+	return text;
+}
+
+/* ------------------------------------------------------------ the test */
+
+static void every_leaf_is_in_the_journal_and_done_again(void **state)
+{
+	struct stand *s = *state;
+	char again[] = "/tmp/batten-desk-XXXXXX", twice[] = "/tmp/batten-desk-XXXXXX";
+	struct report_store said;
+	int failed;
+
+	assert_non_null(mkdtemp(again));
+	assert_non_null(mkdtemp(twice));
+	write_inputs(s->folder);
+	write_inputs(again);
+	write_inputs(twice);
+	assert_int_equal(run_in(s->folder, "jobs >/dev/null"), 0); /* the service runs */
+	for (int k = 0; k < N_STEPS; k++) {
+		if (!strcmp(steps[k], "V163") || !strcmp(steps[k], "V164") ||
+		    !strcmp(steps[k], "V165"))
+			steer_a_job(s, steps[k]);
+		else if (strcmp(steps[k], "V133"))
+			choose(s, steps[k]);
+	}
+	stand_leaf(s, "V133");
+	stand_type(s, "l");
+	assert_true(s->closed);
+
+	char *journal = read_text(s->folder, ".batten/journal");
+	for (const struct routine *t = routine_table; t->code; t++) {
+		char *line = text_print("\n%s ", t->code), *alone = text_print("\n%s\n", t->code);
+		if (t->run && !strstr(journal, line) && !strstr(journal, alone) &&
+		    strncmp(journal, line + 1, strlen(line + 1)))
+			fail_msg("%s is not in the journal", t->code);
+		free(line);
+		free(alone);
+	}
+	free(journal);
+
+	char *path = text_print("%s/.batten/journal", s->folder);
+	char *arguments = text_print("script %s >/dev/null", path);
+	assert_int_equal(run_in(again, arguments), 0);
+	assert_true(same_files(s->folder, again) > 20);
+	assert_true(same_files(again, s->folder) > 20);
+	free(arguments);
+
+	struct project project;
+	struct world *w;
+	assert_int_equal(project_find(&project, twice, NULL), ST_OK);
+	assert_int_equal(run_in(twice, "jobs >/dev/null"), 0);
+	assert_int_equal(world_create(&w, twice), ST_OK);
+	report_store_init(&said);
+	struct act a = { .world = w,
+		         .project = &project,
+		         .report = said.report,
+		         .wait = true,
+		         .picture = stand_picture };
+	if (script_run(&a, path, false, &failed) != ST_OK)
+		fail_msg("%s", said.error);
+	char *here = session_of(s->world, s->folder), *there = session_of(w, twice);
+	assert_string_equal(here, there);
+	free(here);
+	free(there);
+	world_destroy(w);
+	project_finish(&project);
+	free(path);
+	assert_int_equal(run_in(s->folder, "shutdown"), 0);
+	assert_int_equal(run_in(twice, "shutdown"), 0);
+	assert_int_equal(run_in(again, "shutdown"), 0);
+	path = text_print("rm -rf %s %s", again, twice);
+	assert_int_equal(system(path), 0);
+	free(path);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(every_leaf_is_in_the_journal_and_done_again,
+		                                stand_set_up, stand_tear_down),
+	};
+
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
