@@ -98,6 +98,39 @@ static const char *main_word(const struct routine *t)
 	return word[t->kind];
 }
 
+static int count_shown(const struct desk *d)
+{
+	int n = 0;
+
+	for (int i = 0; i < world_count(d->world); i++) {
+		const struct Ful *f = world_at(d->world, i);
+		n += ful_is_surface(f) && f->display.on;
+	}
+	return n;
+}
+
+/* With what it is done to: the current thing, or, of a job that sees the whole scene, how many surfaces. */
+static const char *form_title(const struct desk *d, struct scraps *s)
+{
+	const struct routine *t = d->ask.routine;
+	const char *name = d->ask.entry ? d->ask.entry->name : "";
+	const char *need = t->needs ? t->needs : "";
+	const bool scene =
+	        t->worker && strcmp(t->worker, "curvature") && strcmp(t->worker, "isophotes");
+	const struct Ful *f = NULL;
+
+	if (scene && count_shown(d) > 1)
+		return scraps_print(s, "%s of %d surfaces", name, count_shown(d));
+	if (desk_ask_find(d, "surfaces") >= 0 || d->errand)
+		return name;
+	if (!strcmp(need, "surface") || strstr(need, "curve"))
+		f = world_current(d->world, strstr(need, "curve") != NULL);
+	return f && desk_ask_find(d, "curves") < 0 && desk_ask_find(d, "curve") < 0 &&
+	                       desk_ask_find(d, "surface") < 0
+	               ? scraps_print(s, "%s of %s", name, f->name)
+	               : name;
+}
+
 void desk_fill_menu(struct desk *d)
 {
 	const struct Menu_Entry *entry[ENTRIES_MAX], *menu = desk_shown_menu(d);
@@ -119,7 +152,7 @@ void desk_fill_menu(struct desk *d)
 	struct form_field *fields = scraps_array(s, (size_t)d->ask.n, sizeof *fields);
 	for (int i = 0; fields && i < d->ask.n; i++)
 		fill_field(d, &fields[i], i);
-	d->menu.form_title = d->ask.entry ? d->ask.entry->name : "";
+	d->menu.form_title = form_title(d, s);
 	d->menu.form_code = d->ask.routine->code;
 	d->menu.fields = fields;
 	d->menu.n_fields = fields ? d->ask.n : 0;

@@ -61,8 +61,6 @@ enum status work_ask(struct act *a, enum message_type type, json_t *body, client
 
 /* rows_given.c: arguments of a job from its worker, and wait. */
 enum status rows_of_worker(struct argument_row **out, const struct routine *t, struct act *a);
-/* Is it for the current surface, or for each that is shown? It has a row for that. */
-bool routine_takes_surfaces(const struct routine *t);
 enum status rows_copy(struct argument_row **out, const struct argument_row *rows,
                       const struct world *w);
 /* state.c: what the world has now as defaults of rows that set it. Errors: ST_RESOURCE. */

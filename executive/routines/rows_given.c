@@ -154,16 +154,14 @@ static const struct argument_row row_surfaces = {
 	.name = "surfaces",
 	.type = ARGUMENT_CHOICE,
 	.prompt = "Surfaces",
-	.def = "shown",
 	.choices = "current|shown",
 	.help = "of the current surface, or of each that is shown"
 };
 
-bool routine_takes_surfaces(const struct routine *t)
+/* A job's arguments are its worker's. */
+static bool takes_surfaces(const struct routine *t)
 {
-	return t->run == job_curvature || t->run == surface_quantity ||
-	       (t->run == job_lines && !strcmp(t->worker, "isophotes")) ||
-	       (t->run == surface_show_lines && !t->detail);
+	return t->run == surface_quantity || (t->run == surface_show_lines && !t->detail);
 }
 
 /* Rows that leaves have beside those of the table or of their worker; *rows has grown by them. */
@@ -174,8 +172,10 @@ static enum status add_rows(struct argument_row **rows, const struct routine *t,
 	int n_more = 0;
 	size_t n = 0;
 
-	if (routine_takes_surfaces(t))
-		more[n_more++] = row_surfaces;
+	if (takes_surfaces(t)) { /* a script says what it means; a window shows what is there */
+		more[n_more] = row_surfaces;
+		more[n_more++].def = a->wait ? "current" : "shown";
+	}
 	if (t->worker || t->run == surface_quantity) {
 		more[n_more] = row_wait;
 		more[n_more++].def = a->wait ? "yes" : "no";

@@ -70,15 +70,14 @@ static enum status run_one(struct act *a, json_t *parameters, const char *worker
 	return st;
 }
 
-/* Likewise on each, a job each. */
-static enum status run_each(struct act *a, const struct arguments *given,
-                            const struct overlay *like, int *ids, int n)
+/* Likewise on the current one. */
+static enum status run_current(struct act *a, const struct arguments *given,
+                               const struct overlay *like)
 {
+	const struct Ful *f = act_current(a, false);
 	json_t *parameters = work_parameters(given);
-	enum status st = n ? ST_OK : ST_PARAMETER;
+	enum status st = f ? run_one(a, parameters, a->routine->worker, f->id, like) : ST_PARAMETER;
 
-	for (int k = 0; k < n && st == ST_OK; k++)
-		st = run_one(a, parameters, a->routine->worker, ids[k], like);
 	json_decref(parameters);
 	return st;
 }
@@ -95,28 +94,20 @@ static enum status look_at_map(struct act *a, int id)
 enum status job_lines(struct act *a, const struct arguments *given)
 {
 	const struct overlay like = { .kind = OVERLAY_LINES };
-	int *ids;
 
-	if (!strcmp(a->routine->worker, "reflection"))
-		return run_scene(a, given, NULL, &like);
-	const int n = meant(a, given, &ids);
-	enum status st = run_each(a, given, &like, ids, n);
-	free(ids);
-	return st;
+	return strcmp(a->routine->worker, "reflection") ? run_current(a, given, &like)
+	                                                : run_scene(a, given, NULL, &like);
 }
 
 enum status job_curvature(struct act *a, const struct arguments *given)
 {
 	const struct overlay like = { .kind = OVERLAY_MAP, .scale = COLORMAP_AUTOMATIC };
-	int *ids, n = meant(a, given, &ids);
-	enum status st = run_each(a, given, &like, ids, n);
+	enum status st = run_current(a, given, &like);
 
-	if (st == ST_OK)
-		world_sight(a->world)->all_curvatures = true;
-	for (int k = 0; k < n && st == ST_OK; k++)
-		st = look_at_map(a, ids[k]);
-	free(ids);
-	return st;
+	if (st != ST_OK)
+		return st;
+	world_sight(a->world)->all_curvatures = true;
+	return look_at_map(a, world_current(a->world, false)->id);
 }
 
 /* Range, scale and symmetry of the key. */
@@ -253,6 +244,31 @@ static enum status show_result(struct act *a, const struct arguments *given, con
 	return st;
 }
 
+static bool has_result(const struct act *a, int id, const char *suffix)
+{
+	char *path = work_name(a, &id, 1, suffix);
+	const bool there = path && path_exists(path);
+
+	free(path);
+	return there;
+}
+
+/* Of several surfaces those that have some. */
+static enum status show_isophotes(struct act *a, const struct arguments *given, const int *ids,
+                                  int n)
+{
+	enum status st = ST_OK;
+	int some = 0;
+
+	for (int k = 0; k < n && st == ST_OK; k++)
+		if (has_result(a, ids[k], ".isophote")) {
+			st = show_result(a, given, &ids[k], 1, ".isophote", "isophotes", "V90");
+			some++;
+		}
+	return some || st != ST_OK ? st
+	                           : show_result(a, given, ids, 1, ".isophote", "isophotes", "V90");
+}
+
 enum status surface_show_lines(struct act *a, const struct arguments *given)
 {
 	const bool reflection = a->routine->detail;
@@ -261,8 +277,8 @@ enum status surface_show_lines(struct act *a, const struct arguments *given)
 
 	if (n && reflection)
 		st = show_result(a, given, ids, n, ".reflect", "reflection", "V94");
-	for (int k = 0; k < n && !reflection && st == ST_OK; k++)
-		st = show_result(a, given, &ids[k], 1, ".isophote", "isophotes", "V90");
+	else if (n)
+		st = show_isophotes(a, given, ids, n);
 	free(ids);
 	return st;
 }
