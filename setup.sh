@@ -4,7 +4,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 top=$PWD
 
 build_packages="gcc libc6-dev meson ninja-build pkg-config libjansson-dev libxxhash-dev libuv1-dev
-	libsqlite3-dev libembree-dev libopenexr-dev libdeflate-dev libcairo2-dev
+	libsqlite3-dev libopenexr-dev libdeflate-dev libcairo2-dev
 	libpango1.0-dev fonts-inter fonts-dejavu-core libglfw3-dev libepoxy-dev libegl-dev libgl1-mesa-dri"
 test_packages="$build_packages libcmocka-dev clang libclang-rt-14-dev xvfb xdotool"
 long_packages="$test_packages valgrind"

@@ -501,14 +501,18 @@ static void what_cannot_be_seen(void **state)
 	assert_non_null(strstr(store.error, "nothing to see"));
 	assert_int_equal(ray_scene_create(&scene, NULL, 0, 0, &store.report), ST_INPUT);
 	s = &sphere;
-	for (size_t memory = 1000; memory < 300000; memory *= 4) {
+	assert_int_equal(ray_scene_create(&scene, &s, 1, 0, NULL), ST_OK);
+	size_t taken = ray_scene_memory(scene);
+	assert_true(taken > ray_scene_leaves(scene) * 64);
+	ray_scene_destroy(scene);
+	for (size_t memory = 1000; memory < taken; memory += taken / 7) {
 		report_store_init(&store);
 		assert_int_equal(ray_scene_create(&scene, &s, 1, memory, &store.report),
 		                 ST_RESOURCE);
+		assert_null(scene);
 		assert_int_equal(store.n_errors, 1);
 	}
-	assert_int_equal(ray_scene_create(&scene, &s, 1, 0, NULL), ST_OK);
-	assert_true(ray_scene_memory(scene) > ray_scene_leaves(scene) * 64);
+	assert_int_equal(ray_scene_create(&scene, &s, 1, 4 * taken, NULL), ST_OK);
 	ray_scene_destroy(scene);
 	ray_scene_destroy(NULL);
 	surface_finish(&point);

@@ -10,8 +10,12 @@ enum { FINISH_STEPS = 14 };
 /* Parameters may be out of the patch by this much, so that nothing slips between two patches. */
 #define BORDER 1e-9
 
-/* Hits nearer to each other than this along a ray are one; the leaf of lower number has it. */
+/* Hits nearer to each other than this along a ray are one: that of the lower claim. */
 #define SAME 1e-12
+
+/* A claim is the number of the leaf that found a hit, and this if the hit lies beside it, for
+ * whether a leaf is asked about what lies beside it depends on what was found before. */
+#define CLAIM_BESIDE ((int64_t)1 << 32)
 
 /* Bernstein polynomials of degree order - 1 and their derivatives. */
 INLINE void finish_basis(int order, vd t, vd *b, vd *d)
@@ -212,14 +216,14 @@ static __attribute__((noinline)) vl finish_trim(const struct packet *p, const st
 }
 
 /* Keep what lanes `ok` of half h have found. */
-INLINE void finish_keep(struct packet *p, int h, vl ok, vl leaf, vd t, vd a, vd b,
+INLINE void finish_keep(struct packet *p, int h, vl ok, vl claim, vd t, vd a, vd b,
                         const struct finish_point *x)
 {
 	vd area = dotd(x->pa, x->pa) * dotd(x->pb, x->pb) + 1e-24;
 
 	p->fard[h] = pickd(ok, t, p->fard[h]);
 	p->area[h] = pickd(ok, area, p->area[h]);
-	p->leaf[h] = (ok & leaf) | (~ok & p->leaf[h]);
+	p->claim[h] = (ok & claim) | (~ok & p->claim[h]);
 	p->a[0][h] = pickd(ok, a, p->a[0][h]);
 	p->a[1][h] = pickd(ok, b, p->a[1][h]);
 	for (int e = 0; e < 3; e++) {
@@ -274,17 +278,19 @@ static __attribute__((noinline)) vi finish(struct packet *p, uint32_t number, vf
 		struct finish_point x = { 0 };
 		vl ok = finish_newton(patch, &r, half, live, &a, &b, &x);
 		vd along = dotd(r.d, x.p) - r.kd;
-		vl leaf = (vl){ 0 } + (int64_t)number;
+		vl beside = (sized(a - middle[0]) > half[0] + BORDER) |
+		            (sized(b - middle[1]) > half[1] + BORDER);
+		vl claim = (beside & CLAIM_BESIDE) | (int64_t)number;
 
 		ok &= along > p->neard[h];
 		ok &= (along < p->fard[h] - SAME) |
-		      ((along <= p->fard[h] + SAME) & (leaf < p->leaf[h]));
+		      ((along <= p->fard[h] + SAME) & (claim < p->claim[h]));
 		if (l->trim != TRIM_NONE && any_half(ok))
 			ok = finish_trim(p, l, ok, a, b);
 		out[h] = ok;
 		if (!p->call.nearest || !any_half(ok))
 			continue;
-		finish_keep(p, h, ok, leaf, along, a, b, &x);
+		finish_keep(p, h, ok, claim, along, a, b, &x);
 	}
 	if (p->call.nearest)
 		p->far = to_float(p->fard) + 2 * RAY_NOISE;

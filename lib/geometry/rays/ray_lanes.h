@@ -113,4 +113,39 @@ INLINE vf larger(vf a, vf b)
 	return pick(a > b, a, b);
 }
 
+INLINE vf smaller(vf a, vf b)
+{
+	return pick(a < b, a, b);
+}
+
+INLINE int first_lane(vi m)
+{
+#if LANES == 16 && defined __AVX512F__
+	return __builtin_ctz(_mm512_test_epi32_mask((__m512i)m, (__m512i)m));
+#elif LANES == 8 && defined __AVX__
+	return __builtin_ctz((unsigned)_mm256_movemask_ps((__m256)m));
+#else
+	int i = 0;
+
+	while (i < LANES - 1 && !m[i])
+		i++;
+	return i;
+#endif
+}
+
+/* Smallest of the lanes m; infinite if there are none. */
+INLINE float lanes_least(vi m, vf a)
+{
+	vf b = pick(m, a, fill(__builtin_inff()));
+#if LANES == 16 && defined __AVX512F__
+	return _mm512_reduce_min_ps((__m512)b);
+#else
+	float x = b[0];
+
+	for (int i = 1; i < LANES; i++)
+		x = b[i] < x ? b[i] : x;
+	return x;
+#endif
+}
+
 #endif

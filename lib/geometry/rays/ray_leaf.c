@@ -319,7 +319,7 @@ static enum status cut_leaf(struct cutter *c, const struct bicubic *b, const dou
 		return st;
 
 	struct ray_leaf *leaf = &cut->leaves[cut->n_leaves];
-	double w = b->a[0][0][3], rest = 0, rest_w = 0;
+	double w = b->a[0][0][3], rest = 0, rest_s = 0, rest_t = 0, bend = 0, rest_w = 0;
 	bool rational = false;
 
 	memset(leaf, 0, sizeof *leaf);
@@ -337,12 +337,20 @@ static enum status cut_leaf(struct cutter *c, const struct bicubic *b, const dou
 			if (i + j && fabs(weight) > 1e-9)
 				rational = true;
 			if (i + j >= 2) {
-				rest += length3(q);
+				double size = length3(q);
+
+				rest += size;
+				rest_s += i * size;
+				rest_t += j * size;
+				bend += size * fmax(i * j, fmax(i * (i - 1), j * (j - 1)));
 				rest_w += fabs(weight);
 			}
 		}
 	leaf->error = (float)((b->off[0] + b->off[1]) * 1.01) + RAY_NOISE;
 	leaf->rest = (float)rest * 1.0001f + leaf->error;
+	leaf->rest_s = (float)rest_s * 1.0001f;
+	leaf->rest_t = (float)rest_t * 1.0001f;
+	leaf->bend = (float)bend * 1.0001f;
 	leaf->rest_w = rational ? (float)rest_w * 1.0001f : 0;
 	for (int d = 0; d < 2; d++) {
 		leaf->from[d] = (float)from[d];

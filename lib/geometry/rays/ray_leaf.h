@@ -37,15 +37,17 @@ enum ray_trim {
 struct ray_leaf {
 	float a[4][16];
 	float center[3];
-	float reach;  /* bound on |point - center| */
-	float rest;   /* sum of |a_ij| for i + j >= 2, and of error */
-	float rest_w; /* likewise of the weights alone */
-	float error;  /* bound on the distance of the coefficients from the true surface */
+	float reach;          /* bound on |point - center| */
+	float rest;           /* sum of |a_ij| for i + j >= 2, and of error */
+	float rest_s, rest_t; /* of i |a_ij|, of j |a_ij|, for the same: what slopes differ by */
+	float bend;           /* of |a_ij| by the largest of i (i - 1), i j, j (j - 1) */
+	float rest_w;         /* sum of the weights' |a_ij| for i + j >= 2 */
+	float error;          /* bound on the distance of the coefficients from the true surface */
 	float from[2],
 	        step[2]; /* parameters in the patch [0,1]: from + step * (s + 1) / 2; exact */
 	uint32_t patch;
-	uint32_t rational;
-	uint32_t trim; /* enum ray_trim */
+	uint16_t rational;
+	uint16_t trim; /* enum ray_trim */
 } __attribute__((aligned(64)));
 
 struct ray_bounds {

@@ -5,17 +5,14 @@
 #include "ray_kernel.h"
 #include "ray_lanes.h"
 
-/* What Embree hands back to the callbacks: of a packet or of a single ray. */
 struct ray_call {
-	struct RTCIntersectContext context; /* first */
 	const struct ray_scene *scene;
 	bool nearest; /* else any hit will do */
-	bool single;
 };
 
 /* The nearest hit of one ray so far, in scene units. */
 struct ray_found {
-	int64_t leaf;              /* -1: none */
+	int64_t claim;             /* the leaf's, see ray_finish.h; -1: none */
 	double t, a, b;            /* a, b: parameters in the patch [0, 1] */
 	struct vec3 point, normal; /* normal: Su x Sv, not of unit length */
 	double area;               /* |Su|^2 |Sv|^2, a little more */
@@ -26,12 +23,12 @@ struct ray_found {
  * Doubles come as two halves. Results are those of the nearest hit so far.
  */
 struct packet {
-	struct ray_call call;              /* first */
+	struct ray_call call;
 	vf d[3], n1[3], n2[3], k1, k2, kd; /* kd: d . origin */
 	vf near, far;                      /* a little wider than the true ones */
 	vd dd[3][2], nd1[3][2], nd2[3][2], kd1[2], kd2[2], kdd[2];
 	vd neard[2], fard[2];         /* far: comes nearer with each hit */
-	vl leaf[2];                   /* -1: none */
+	vl claim[2];                  /* of the leaf, see ray_finish.h; -1: none */
 	vd a[2][2];                   /* parameters in the patch [0, 1]: u, v */
 	vd point[3][2], normal[3][2]; /* normal: Su x Sv, not of unit length */
 	vd area[2];                   /* |Su|^2 |Sv|^2, a little more */

@@ -1,4 +1,4 @@
-/* ray_scene.c - the scene: leaves under Embree's tree, and rays handed to the kernel of this
+/* ray_scene.c - the scene: leaves under a tree, and rays handed to the kernel of this
  * processor's vector level. */
 #include "ray_scene.h"
 
@@ -8,77 +8,33 @@
 #include "parallel.h"
 #include "ray_kernel.h"
 
-/* Embree asks before it takes memory and tells when it gives some back (bytes < 0). */
-static bool tree_memory(void *data, ssize_t bytes, bool post)
-{
-	struct ray_scene *s = data;
-	size_t now = s->tree_bytes + (size_t)bytes;
-
-	s->tree_bytes = now;
-	if (bytes > 0 && !post && s->cut.memory && s->cut.bytes + now > s->cut.memory) {
-		s->tree_bytes = now - (size_t)bytes;
-		return false;
-	}
-	return true;
-}
-
-static void leaf_box(const struct RTCBoundsFunctionArguments *args)
-{
-	const struct ray_scene *s = args->geometryUserPtr;
-	const struct ray_bounds *b = &s->cut.bounds[args->primID];
-
-	*args->bounds_o = (struct RTCBounds){
-		.lower_x = b->lo[0],
-		.lower_y = b->lo[1],
-		.lower_z = b->lo[2],
-		.upper_x = b->hi[0],
-		.upper_y = b->hi[1],
-		.upper_z = b->hi[2],
-	};
-}
-
-/* The widest kernel that both this process and the tree take natively. */
-static const struct ray_kernel *kernel_choose(RTCDevice device)
+/* The widest kernel that this process takes natively. */
+static const struct ray_kernel *kernel_choose(void)
 {
 #if RAY_LEVELS
 	const char *level = vector_level();
 
-	if (!strcmp(level, ray_kernel_16.level) &&
-	    rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
+	if (!strcmp(level, ray_kernel_16.level))
 		return &ray_kernel_16;
-	if (!strcmp(level, ray_kernel_16.level) || !strcmp(level, ray_kernel_8.level))
+	if (!strcmp(level, ray_kernel_8.level))
 		return &ray_kernel_8;
-#else
-	(void)device;
 #endif
 	return &ray_kernel_4;
 }
 
 static enum status tree_build(struct ray_scene *s)
 {
-	s->device = rtcNewDevice("threads=1,set_affinity=0");
-	if (!s->device)
+	struct ray_cut *c = &s->cut;
+
+	s->kernel = kernel_choose();
+	if (c->memory && c->bytes >= c->memory)
 		return ST_RESOURCE;
-	rtcSetDeviceMemoryMonitorFunction(s->device, tree_memory, s);
-	s->kernel = kernel_choose(s->device);
-	s->tree = rtcNewScene(s->device);
-	RTCGeometry g = rtcNewGeometry(s->device, RTC_GEOMETRY_TYPE_USER);
-	rtcSetSceneFlags(s->tree, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT);
-	rtcSetGeometryUserPrimitiveCount(g, (unsigned)s->cut.n_leaves);
-	rtcSetGeometryUserData(g, s);
-	rtcSetGeometryBoundsFunction(g, leaf_box, NULL);
-	rtcSetGeometryIntersectFunction(g, s->kernel->intersect);
-	rtcSetGeometryOccludedFunction(g, s->kernel->occluded);
-	rtcCommitGeometry(g);
-	rtcAttachGeometry(s->tree, g);
-	rtcReleaseGeometry(g);
-	rtcCommitScene(s->tree);
-	if (rtcGetDeviceError(s->device) != RTC_ERROR_NONE)
-		return ST_RESOURCE;
+	enum status st = ray_tree_init(&s->tree, c->bounds, c->n_leaves,
+	                               c->memory ? c->memory - c->bytes : 0);
 	/* boxes were for building only */
-	free(s->cut.bounds);
-	s->cut.bounds = NULL;
-	return ST_OK;
+	free(c->bounds);
+	c->bounds = NULL;
+	return st;
 }
 
 enum status ray_scene_create(struct ray_scene **out, const struct surface *const *surfaces, int n,
@@ -126,10 +82,7 @@ void ray_scene_destroy(struct ray_scene *s)
 {
 	if (!s)
 		return;
-	if (s->tree)
-		rtcReleaseScene(s->tree);
-	if (s->device)
-		rtcReleaseDevice(s->device);
+	ray_tree_finish(&s->tree);
 	free((void *)s->surfaces);
 	ray_cut_finish(&s->cut);
 	free(s);
@@ -137,7 +90,7 @@ void ray_scene_destroy(struct ray_scene *s)
 
 size_t ray_scene_memory(const struct ray_scene *s)
 {
-	return s->cut.bytes + s->tree_bytes;
+	return s->cut.bytes + s->tree.capacity * sizeof *s->tree.nodes;
 }
 
 size_t ray_scene_leaves(const struct ray_scene *s)
@@ -194,7 +147,7 @@ void ray_scene_hits(const struct ray_scene *s, const struct ray *rays, size_t n,
 
 void ray_scene_blocked(const struct ray_scene *s, const struct ray *rays, size_t n, bool *out)
 {
-	s->kernel->blocked(s, rays, NULL, n, out);
+	s->kernel->blocked(s, rays, n, out);
 }
 
 void ray_scene_hit(const struct ray_scene *s, const struct ray *ray, struct ray_hit *hit)

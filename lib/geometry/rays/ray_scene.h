@@ -1,7 +1,7 @@
 /* ray_scene.h - rays against many NURBS surfaces, directly: no triangles.
  *
- * Surfaces are cut into Bezier leaves; Embree's BVH over the leaves' boxes finds the leaves a ray
- * may meet, our own Newton iteration on the two planes through the ray finds where, and a step in
+ * Surfaces are cut into Bezier leaves; a tree over the leaves' boxes finds the leaves a ray may
+ * meet, our own Newton iteration on the two planes through the ray finds where, and a step in
  * double finishes the hit that is kept.
  * Source of the two planes: Kajiya, Ray tracing parametric patches (SIGGRAPH 1982).
  */

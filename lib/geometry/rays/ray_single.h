@@ -18,9 +18,14 @@ typedef int32_t i16 __attribute__((vector_size(64)));
 typedef float v8 __attribute__((vector_size(32)));
 typedef double d4 __attribute__((vector_size(32)));
 
+/* A step this short, in half leaves, says already what a leaf cannot have; one that short is the last
+ * before the finish. */
+#define EARLY_STEP 0.25f
+#define LAST_STEP  1e-2f
+
 /* As struct packet, for one ray. */
 struct single {
-	struct ray_call call; /* first: Embree hands it back to the callbacks */
+	struct ray_call call;
 	float d[3], n1[3], n2[3], k1, k2, kd, near, far;
 	double dd[3], nd1[3], nd2[3], kd1, kd2, kdd, neard, shift;
 	double o[3];
@@ -147,8 +152,8 @@ static enum single_end single_finish(struct single *q, uint32_t number, float s,
 	const struct ray_leaf *l = &scene->cut.leaves[number];
 	const struct ray_patch *patch = &scene->cut.patches[l->patch];
 	double half[2] = { 0.5 * (double)l->step[0], 0.5 * (double)l->step[1] };
-	double a = (double)l->from[0] + half[0] * (1 + (double)s);
-	double b = (double)l->from[1] + half[1] * (1 + (double)t);
+	double middle[2] = { (double)l->from[0] + half[0], (double)l->from[1] + half[1] };
+	double a = middle[0] + half[0] * (double)s, b = middle[1] + half[1] * (double)t;
 	struct ray_found *f = &q->found;
 	struct single_point x;
 	enum single_end end = single_newton(patch, q, half, &a, &b, &x);
@@ -156,15 +161,18 @@ static enum single_end single_finish(struct single *q, uint32_t number, float s,
 	if (end != SINGLE_HIT)
 		return end;
 	double along = dots(q->dd, x.p) - q->kdd;
+	bool beside =
+	        fabs(a - middle[0]) > half[0] + BORDER || fabs(b - middle[1]) > half[1] + BORDER;
+	int64_t claim = (beside ? CLAIM_BESIDE : 0) | number;
 	if (!(along > q->neard) ||
-	    !(along < f->t - SAME || (along <= f->t + SAME && (int64_t)number < f->leaf)))
+	    !(along < f->t - SAME || (along <= f->t + SAME && claim < f->claim)))
 		return SINGLE_MISS;
 	if (!single_untrimmed(scene, l, a, b))
 		return SINGLE_MISS;
 	if (!q->call.nearest)
 		return SINGLE_HIT;
 	f->t = along;
-	f->leaf = number;
+	f->claim = claim;
 	f->a = a;
 	f->b = b;
 	f->point = vec3(x.p[0], x.p[1], x.p[2]);
@@ -175,21 +183,20 @@ static enum single_end single_finish(struct single *q, uint32_t number, float s,
 	return SINGLE_HIT;
 }
 
-/* Pairs of neighbours added: of a, then of b, in each half. */
-INLINE v8 pairs(v8 a, v8 b)
+/* Pairs of neighbours added: of a, then of b, in each quarter. */
+INLINE v16 pairs(v16 a, v16 b)
 {
-	return __builtin_shufflevector(a, b, 0, 2, 8, 10, 4, 6, 12, 14) +
-	       __builtin_shufflevector(a, b, 1, 3, 9, 11, 5, 7, 13, 15);
+	return __builtin_shufflevector(a, b, 0, 2, 16, 18, 4, 6, 20, 22, 8, 10, 24, 26, 12, 14, 28,
+	                               30) +
+	       __builtin_shufflevector(a, b, 1, 3, 17, 19, 5, 7, 21, 23, 9, 11, 25, 27, 13, 15, 29,
+	                               31);
 }
 
-INLINE float single_sum(v16 a)
-{
-	v8 b = __builtin_shufflevector(a, a, 0, 1, 2, 3, 4, 5, 6, 7) +
-	       __builtin_shufflevector(a, a, 8, 9, 10, 11, 12, 13, 14, 15);
-
-	b = pairs(b, b);
-	return (b[0] + b[1]) + (b[4] + b[5]);
-}
+/* Four numbers in each quarter. */
+#define QUARTERS(a, b, c, d)                                                                       \
+	{                                                                                          \
+		a, b, c, d, a, b, c, d, a, b, c, d, a, b, c, d                                     \
+	}
 
 INLINE v16 single_dot(const float *n, const struct ray_leaf *l)
 {
@@ -201,44 +208,41 @@ INLINE v16 single_dot(const float *n, const struct ray_leaf *l)
 	return n[0] * x + n[1] * y + n[2] * z;
 }
 
-/* A leaf or a part of it, as struct node. Row i holds the coefficients of s^i of f1, then of f2. */
+/*
+ * A leaf or a part of it, as struct node. Row i holds the coefficients of s^i of f1, f2, of the
+ * distance along the ray (times the weight, from the leaf's centre), and of the weight.
+ */
 struct single_node {
-	v8 row[4];
+	v16 row[4];
 	float s0, t0, half;
+	float bend; /* as the leaf's, of f1 and f2 */
 	int depth;
 };
 
-struct single_values {
-	float v1, s1, t1, v2, s2, t2;
+/* A value and its derivatives. */
+struct single_value {
+	float v, s, t;
 };
 
-INLINE struct single_values single_at(const struct single_node *f, float s, float t)
+struct single_values {
+	struct single_value f1, f2, along, weight;
+};
+
+INLINE struct single_values single_at(const struct single_node *n, float s, float t)
 {
-	v8 g = ((f->row[3] * s + f->row[2]) * s + f->row[1]) * s + f->row[0];
-	v8 h = (3 * f->row[3] * s + 2 * f->row[2]) * s + f->row[1];
+	const v16 *r = n->row;
+	v16 g = ((r[3] * s + r[2]) * s + r[1]) * s + r[0];
+	v16 h = (3 * r[3] * s + 2 * r[2]) * s + r[1];
 	float tt = t * t;
-	v8 power = { 1, t, tt, tt * t, 1, t, tt, tt * t };
-	v8 slope = { 0, 1, 2 * t, 3 * tt, 0, 1, 2 * t, 3 * tt };
-	v8 hp = h * power;
-	v8 sums = pairs(pairs(g * power, g * slope), pairs(hp, hp));
+	v16 power = QUARTERS(1, t, tt, tt * t);
+	v16 slope = QUARTERS(0, 1, 2 * t, 3 * tt);
+	v16 hp = h * power;
+	v16 sums = pairs(pairs(g * power, g * slope), pairs(hp, hp));
 
-	return (struct single_values){ sums[0], sums[2], sums[1], sums[4], sums[6], sums[5] };
-}
-
-/* Distance along the ray at (s, t) of the leaf; dc: to its centre. */
-INLINE float single_along(const struct single *q, const struct ray_leaf *l, float dc, float s,
-                          float t)
-{
-	float ss = s * s, sss = ss * s, tt = t * t, ttt = tt * t;
-	v16 power = { 1,  t,      tt,      ttt,      s,   s * t,   s * tt,   s * ttt,
-		      ss, ss * t, ss * tt, ss * ttt, sss, sss * t, sss * tt, sss * ttt };
-	float along = single_sum(single_dot(q->d, l) * power);
-
-	if (!l->rational)
-		return along + dc;
-	v16 w;
-	memcpy(&w, l->a[3], sizeof w);
-	return along / single_sum(w * power) + dc;
+	return (struct single_values){ { sums[0], sums[2], sums[1] },
+		                       { sums[4], sums[6], sums[5] },
+		                       { sums[8], sums[10], sums[9] },
+		                       { sums[12], sums[14], sums[13] } };
 }
 
 /* The packet's code for a leaf that is not plain. */
@@ -257,8 +261,8 @@ static __attribute__((noinline)) bool single_by_packet(struct single *q, uint32_
 		start.near.x[i] = q->neard;
 		start.far.x[i] = f->t;
 	}
-	packet_prepare(&p, q->call.scene, &start, false, q->call.nearest);
-	p.leaf[0][0] = f->leaf;
+	packet_prepare(&p, q->call.scene, &start, q->call.nearest);
+	p.claim[0][0] = f->claim;
 	if (!any(leaf_trace(&p, number, act)))
 		return false;
 	if (!q->call.nearest)
@@ -268,10 +272,14 @@ static __attribute__((noinline)) bool single_by_packet(struct single *q, uint32_
 	return true;
 }
 
-/* What the iteration from the linear solution comes to: a hit in the node, none, or unsure. */
+/*
+ * What the iteration from the linear solution comes to: a hit in the node, none, or unsure. What is
+ * left after a step is bounded by the bend; often that says after the first that the hit is out of
+ * the node, or of what is looked for. wide: as in struct newton.
+ */
 static enum single_end single_solve(struct single *q, uint32_t number, const struct single_node *n,
-                                    float s, float t, float reach_s, float reach_t, float dc,
-                                    bool *stuck)
+                                    float s, float t, float reach_s, float reach_t, bool wide,
+                                    float dc, bool *stuck)
 {
 	const struct ray_leaf *l = &q->call.scene->cut.leaves[number];
 	float edge = 1 + SLACK / n->half;
@@ -279,40 +287,47 @@ static enum single_end single_solve(struct single *q, uint32_t number, const str
 	if (fabsf(s) > 1.2f || fabsf(t) > 1.2f)
 		s = t = 0;
 	for (int step = 0; step < NEWTON_STEPS; step++) {
-		struct single_values f = single_at(n, s, t);
-		float det = f.s1 * f.t2 - f.s2 * f.t1, inverse = det / (det * det + 1e-30f);
-		float ds = (f.v2 * f.t1 - f.v1 * f.t2) * inverse;
-		float dt = (f.v1 * f.s2 - f.v2 * f.s1) * inverse;
-		bool there = fabsf(f.v1) + fabsf(f.v2) < 0.25f * l->error;
+		struct single_values x = single_at(n, s, t);
+		float det = x.f1.s * x.f2.t - x.f2.s * x.f1.t;
+		float inverse = det / (det * det + 1e-30f);
+		float ds = (x.f2.v * x.f1.t - x.f1.v * x.f2.t) * inverse;
+		float dt = (x.f1.v * x.f2.s - x.f2.v * x.f1.s) * inverse;
 
-		if (!there) {
-			s += ds;
-			t += dt;
-		}
+		if (fabsf(x.f1.v) + fabsf(x.f2.v) < 0.25f * l->error)
+			ds = dt = 0;
+		s += ds;
+		t += dt;
 		if (!(fabsf(s) < reach_s) || !(fabsf(t) < reach_t))
 			return SINGLE_MISS;
-		if (!there && !(fabsf(ds) + fabsf(dt) < 4e-3f))
+		float length = fabsf(ds) + fabsf(dt);
+		if (!(length < EARLY_STEP))
 			continue;
 
-		float grow = l->error * fabsf(inverse);
-		float off_s = grow * (fabsf(f.t1) + fabsf(f.t2)) + 0.05f * fabsf(ds);
-		float off_t = grow * (fabsf(f.s1) + fabsf(f.s2)) + 0.05f * fabsf(dt);
-		if (fabsf(s) > edge + off_s || fabsf(t) > edge + off_t)
+		float left = n->bend * length * length, off = l->error + left;
+		float off_s = off * fabsf(inverse) * (fabsf(x.f1.t) + fabsf(x.f2.t));
+		float off_t = off * fabsf(inverse) * (fabsf(x.f1.s) + fabsf(x.f2.s));
+		if (fabsf(s) > edge + off_s || fabsf(t) > edge + off_t) {
+			*stuck = fmaxf(fabsf(s), fabsf(t)) > (wide ? WIDE_ASIDE : ASIDE);
 			return SINGLE_MISS;
-		if (fabsf(s) > 1.5f || fabsf(t) > 1.5f)
-			return SINGLE_UNSURE;
-		/* as in node_candidates */
-		bool inside = !q->call.nearest && l->trim != TRIM_THROUGH &&
-		              fabsf(s) + off_s + off_t < 1 && fabsf(t) + off_s + off_t < 1;
-		s = n->s0 + n->half * s;
-		t = n->t0 + n->half * t;
-		float along = single_along(q, l, dc, s, t);
-		float margin = 4 * RAY_NOISE + 2 * n->half * l->reach * (off_s + off_t);
+		}
+		float along = x.along.v + ds * x.along.s + dt * x.along.t;
+		if (l->rational)
+			along /= x.weight.v + ds * x.weight.s + dt * x.weight.t;
+		along += dc;
+		float margin = 4 * RAY_NOISE +
+		               2 * (fabsf(x.along.s) * off_s + fabsf(x.along.t) * off_t + left);
 		if (!(along > q->near - margin) || !(along < q->far + margin))
 			return SINGLE_MISS;
-		if (inside && along > q->near + 2 * margin && along < q->far - 2 * margin)
+		/* as in node_candidates */
+		if (!q->call.nearest && l->trim != TRIM_THROUGH && fabsf(s) + off_s < 1 &&
+		    fabsf(t) + off_t < 1 && along > q->near + 2 * margin &&
+		    along < q->far - 2 * margin)
 			return SINGLE_HIT;
-		return single_finish(q, number, s, t);
+		if (!(length < LAST_STEP))
+			continue;
+		if (fabsf(s) > 1.5f || fabsf(t) > 1.5f)
+			return SINGLE_UNSURE;
+		return single_finish(q, number, n->s0 + n->half * s, n->t0 + n->half * t);
 	}
 	*stuck = true;
 	return SINGLE_MISS;
@@ -322,33 +337,41 @@ static enum single_end single_solve(struct single *q, uint32_t number, const str
 static void single_quarter(const struct single_node *in, float side_s, float side_t,
                            struct single_node *out)
 {
-	const v8 *r = in->row;
+	const v16 *r = in->row;
 	float h = 0.5f * side_s, g = 0.5f * side_t;
-	v8 half[4] = {
+	v16 half[4] = {
 		((r[3] * h + r[2]) * h + r[1]) * h + r[0],
 		0.5f * ((3 * r[3] * h + 2 * r[2]) * h + r[1]),
 		0.25f * (3 * r[3] * h + r[2]),
 		0.125f * r[3],
 	};
 	/* t^k of the whole in powers of the half */
-	const v8 part[4] = {
-		{ 1, 0, 0, 0, 1, 0, 0, 0 },
-		{ g, 0.5f, 0, 0, g, 0.5f, 0, 0 },
-		{ g * g, g, 0.25f, 0, g * g, g, 0.25f, 0 },
-		{ g * g * g, 1.5f * g * g, 0.75f * g, 0.125f, g * g * g, 1.5f * g * g, 0.75f * g,
-		  0.125f },
+	const v16 part[4] = {
+		QUARTERS(1, 0, 0, 0),
+		QUARTERS(g, 0.5f, 0, 0),
+		QUARTERS(g * g, g, 0.25f, 0),
+		QUARTERS(g * g * g, 1.5f * g * g, 0.75f * g, 0.125f),
 	};
 	for (int i = 0; i < 4; i++) {
-		v8 a = half[i];
+		v16 a = half[i];
 
-		out->row[i] = __builtin_shufflevector(a, a, 0, 0, 0, 0, 4, 4, 4, 4) * part[0] +
-		              __builtin_shufflevector(a, a, 1, 1, 1, 1, 5, 5, 5, 5) * part[1] +
-		              __builtin_shufflevector(a, a, 2, 2, 2, 2, 6, 6, 6, 6) * part[2] +
-		              __builtin_shufflevector(a, a, 3, 3, 3, 3, 7, 7, 7, 7) * part[3];
+		out->row[i] = __builtin_shufflevector(a, a, 0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12,
+		                                      12, 12, 12) *
+		                      part[0] +
+		              __builtin_shufflevector(a, a, 1, 1, 1, 1, 5, 5, 5, 5, 9, 9, 9, 9, 13,
+		                                      13, 13, 13) *
+		                      part[1] +
+		              __builtin_shufflevector(a, a, 2, 2, 2, 2, 6, 6, 6, 6, 10, 10, 10, 10,
+		                                      14, 14, 14, 14) *
+		                      part[2] +
+		              __builtin_shufflevector(a, a, 3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11,
+		                                      15, 15, 15, 15) *
+		                      part[3];
 	}
 	out->half = in->half / 2;
 	out->s0 = in->s0 + side_s * out->half;
 	out->t0 = in->t0 + side_t * out->half;
+	out->bend = in->bend / 4;
 	out->depth = in->depth + 1;
 }
 
@@ -357,23 +380,20 @@ static enum single_end single_node_trace(struct single *q, uint32_t number,
                                          const struct single_node *n, float dc)
 {
 	const struct ray_leaf *l = &q->call.scene->cut.leaves[number];
-	const v8 *r = n->row;
+	const v16 *r = n->row;
 	float v1 = r[0][0], t1 = r[0][1], s1 = r[1][0], v2 = r[0][4], t2 = r[0][5], s2 = r[1][4];
 	float det = s1 * t2 - s2 * t1, ns = v2 * t1 - v1 * t2, nt = v1 * s2 - v2 * s1;
 	float ad = fabsf(det), edge = 1 + SLACK / n->half;
-	const v8 from1 = { 0, 1, 1, 1, 0, 1, 1, 1 }, from2 = { 0, 0, 1, 1, 0, 0, 1, 1 };
-	const v8 times = { 0, 1, 2, 3, 0, 1, 2, 3 }, times2 = { 0, 0, 2, 3, 0, 0, 2, 3 };
-	v8 size[4];
+	const v16 from1 = QUARTERS(0, 1, 1, 1), from2 = QUARTERS(0, 0, 1, 1);
+	const v16 times = QUARTERS(0, 1, 2, 3), times2 = QUARTERS(0, 0, 2, 3);
+	v16 size[4];
 
-	for (int i = 0; i < 4; i++) {
-		typedef int32_t i8 __attribute__((vector_size(32)));
-
-		size[i] = (v8)((i8)r[i] & 0x7fffffff);
-	}
-	v8 rest = size[0] * from2 + size[1] * from1 + (size[2] + size[3]);
-	v8 zs = size[1] * from1 + (2 * size[2] + 3 * size[3]);
-	v8 zt = size[0] * times2 + (size[1] + size[2] + size[3]) * times;
-	v8 sums = pairs(pairs(rest, zs), pairs(zt, zt));
+	for (int i = 0; i < 4; i++)
+		size[i] = (v16)((i16)r[i] & 0x7fffffff);
+	v16 rest = size[0] * from2 + size[1] * from1 + (size[2] + size[3]);
+	v16 zs = size[1] * from1 + (2 * size[2] + 3 * size[3]);
+	v16 zt = size[0] * times2 + (size[1] + size[2] + size[3]) * times;
+	v16 sums = pairs(pairs(rest, zs), pairs(zt, zt));
 	float rest1 = (sums[0] + l->error) * 1.00001f, rest2 = (sums[4] + l->error) * 1.00001f;
 	float z1s = sums[1], z1t = sums[2], z2s = sums[5], z2t = sums[6];
 	float over_s = fabsf(t2) * rest1 + fabsf(t1) * rest2;
@@ -386,13 +406,14 @@ static enum single_end single_node_trace(struct single *q, uint32_t number,
 	if (n->depth == QUARTERINGS)
 		return SINGLE_UNSURE;
 
-	if (ad > fabsf(s1) * z2t + fabsf(t2) * z1s + fabsf(s2) * z1t + fabsf(t1) * z2s + z1s * z2t +
-	                 z1t * z2s) {
+	float once = fabsf(s1) * z2t + fabsf(t2) * z1s + fabsf(s2) * z1t + fabsf(t1) * z2s;
+	float twice = z1s * z2t + z1t * z2s;
+	if (ad > once + twice) {
 		float inverse = det / (det * det + 1e-30f);
 		bool stuck = false;
-		enum single_end end = single_solve(q, number, n, ns * inverse, nt * inverse,
-		                                   3 + 2 * over_s * fabsf(inverse),
-		                                   3 + 2 * over_t * fabsf(inverse), dc, &stuck);
+		enum single_end end = single_solve(
+		        q, number, n, ns * inverse, nt * inverse, 3 + 2 * over_s * fabsf(inverse),
+		        3 + 2 * over_t * fabsf(inverse), ad > 4 * once + 16 * twice, dc, &stuck);
 
 		if (!stuck)
 			return end;
@@ -411,6 +432,15 @@ static enum single_end single_node_trace(struct single *q, uint32_t number,
 	return hit;
 }
 
+/* Row i of a node from f1, f2, fd and w as leaves have them, k = 4 i. */
+#define SINGLE_ROW(k)                                                                              \
+	JOIN_QUARTERS(__builtin_shufflevector(f1, f2, k, k + 1, k + 2, k + 3, k + 16, k + 17,      \
+	                                      k + 18, k + 19),                                     \
+	              __builtin_shufflevector(fd, w, k, k + 1, k + 2, k + 3, k + 16, k + 17,       \
+	                                      k + 18, k + 19))
+#define JOIN_QUARTERS(a, b)                                                                        \
+	__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+
 /* A hit on the leaf, nearer than the one so far? Kept where the nearest is wanted. */
 static bool single_trace(struct single *q, uint32_t number)
 {
@@ -425,15 +455,19 @@ static bool single_trace(struct single *q, uint32_t number)
 	if (!(dc - l->reach < q->far) || !(dc + l->reach > q->near))
 		return false;
 
-	v16 f1 = single_dot(q->n1, l), f2 = single_dot(q->n2, l);
-	float rest = l->rest;
-	if (l->rational) {
-		v16 w;
+	v16 f1 = single_dot(q->n1, l), f2 = single_dot(q->n2, l), w;
+	float rest = l->rest, rest_s = l->rest_s, rest_t = l->rest_t, bend = l->bend;
 
-		memcpy(&w, l->a[3], sizeof w);
+	memcpy(&w, l->a[3], sizeof w);
+	if (l->rational) {
+		float aside = fmaxf(fabsf(e1), fabsf(e2)) * l->rest_w;
+
 		f1 += e1 * w;
 		f2 += e2 * w;
-		rest += fmaxf(fabsf(e1), fabsf(e2)) * l->rest_w;
+		rest += aside;
+		rest_s += 3 * aside;
+		rest_t += 3 * aside;
+		bend += 9 * aside;
 	} else {
 		f1[0] += e1;
 		f2[0] += e2;
@@ -441,21 +475,33 @@ static bool single_trace(struct single *q, uint32_t number)
 
 	/* the middle's value and slopes alone reject most */
 	float v1 = f1[0], t1 = f1[1], s1 = f1[4], v2 = f2[0], t2 = f2[1], s2 = f2[4];
-	float ad = fabsf(s1 * t2 - s2 * t1) * (1 + SLACK);
-	if (fabsf(v2 * t1 - v1 * t2) > ad + (fabsf(t1) + fabsf(t2)) * rest ||
-	    fabsf(v1 * s2 - v2 * s1) > ad + (fabsf(s1) + fabsf(s2)) * rest)
+	float det = s1 * t2 - s2 * t1, ns = v2 * t1 - v1 * t2, nt = v1 * s2 - v2 * s1;
+	float ad = fabsf(det), ts = fabsf(t1) + fabsf(t2), ss = fabsf(s1) + fabsf(s2);
+	if (fabsf(ns) > ad * (1 + SLACK) + ts * rest || fabsf(nt) > ad * (1 + SLACK) + ss * rest)
 		return false;
 
-	struct single_node n = {
-		.row = {
-		        __builtin_shufflevector(f1, f2, 0, 1, 2, 3, 16, 17, 18, 19),
-		        __builtin_shufflevector(f1, f2, 4, 5, 6, 7, 20, 21, 22, 23),
-		        __builtin_shufflevector(f1, f2, 8, 9, 10, 11, 24, 25, 26, 27),
-		        __builtin_shufflevector(f1, f2, 12, 13, 14, 15, 28, 29, 30, 31),
-		},
+	v16 fd = single_dot(q->d, l);
+	const struct single_node n = {
+		.row = { SINGLE_ROW(0), SINGLE_ROW(4), SINGLE_ROW(8), SINGLE_ROW(12) },
 		.half = 1,
+		.bend = bend,
 	};
-	enum single_end end = single_node_trace(q, number, &n, dc);
+	enum single_end end;
+	bool stuck = true;
+
+	/* as in single_node_trace, with the leaf's own bounds */
+	float once = ss * rest_t + ts * rest_s, twice = 2 * rest_s * rest_t;
+	if (ad > once + twice) {
+		float inverse = 1 / det;
+
+		stuck = false;
+		end = single_solve(q, number, &n, ns * inverse, nt * inverse,
+		                   3 + 2 * ts * rest * fabsf(inverse),
+		                   3 + 2 * ss * rest * fabsf(inverse), ad > 4 * once + 16 * twice,
+		                   dc, &stuck);
+	}
+	if (stuck)
+		end = single_node_trace(q, number, &n, dc);
 	return end == SINGLE_UNSURE ? single_by_packet(q, number) : end == SINGLE_HIT;
 }
 

@@ -47,24 +47,14 @@ static void packet_gather(const struct ray_scene *s, const struct ray *rays, con
 	}
 }
 
-static void ray_call_init(struct ray_call *c, const struct ray_scene *s, bool nearest, bool single)
-{
-	rtcInitIntersectContext(&c->context);
-	c->scene = s;
-	c->nearest = nearest;
-	c->single = single;
-}
-
 /*
  * The two planes of each ray. Source: Duff et al., Building an Orthonormal Basis, Revisited
  * (JCGT 2017).
  */
 static void packet_prepare(struct packet *p, const struct ray_scene *s,
-                           const struct packet_start *a, bool coherent, bool nearest)
+                           const struct packet_start *a, bool nearest)
 {
-	ray_call_init(&p->call, s, nearest, false);
-	if (coherent)
-		p->call.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+	p->call = (struct ray_call){ s, nearest };
 	for (int h = 0; h < 2; h++) {
 		vd x = a->d[0].v[h], y = a->d[1].v[h], z = a->d[2].v[h];
 		vd sign = pickd(z < 0, filld(-1), filld(1));
@@ -84,7 +74,7 @@ static void packet_prepare(struct packet *p, const struct ray_scene *s,
 		p->kdd[h] = dotd(d, o);
 		p->neard[h] = a->near.v[h];
 		p->fard[h] = a->far.v[h];
-		p->leaf[h] = (vl){ 0 } - 1;
+		p->claim[h] = (vl){ 0 } - 1;
 	}
 	for (int e = 0; e < 3; e++) {
 		p->d[e] = to_float(p->dd[e]);
@@ -114,7 +104,7 @@ static double at_lane(const vd x[2], int lane)
 
 static void packet_found(const struct packet *p, int lane, struct ray_found *out)
 {
-	out->leaf = p->leaf[lane / HALF][lane % HALF];
+	out->claim = p->claim[lane / HALF][lane % HALF];
 	out->t = at_lane(p->fard, lane);
 	out->a = at_lane(p->a[0], lane);
 	out->b = at_lane(p->a[1], lane);
