@@ -213,6 +213,23 @@ static int check_fields(struct message_reader *r, const struct message_row *row,
 	return 1;
 }
 
+bool message_reader_text(struct message_reader *r, enum message_type type, const char **text,
+                         size_t *n)
+{
+	const char *p = r->bytes + r->at;
+	const struct message_row *row = message_row(type);
+	if (r->failed || r->n - r->at < MESSAGE_HEADER || get_u32(p) != type ||
+	    !(row->ways & r->ways))
+		return false;
+	uint32_t length = get_u32(p + 4);
+	if (length > MESSAGE_TEXT_MAX || r->n - r->at - MESSAGE_HEADER < length)
+		return false;
+	*text = p + MESSAGE_HEADER;
+	*n = length;
+	r->at += MESSAGE_HEADER + length;
+	return true;
+}
+
 int message_reader_next(struct message_reader *r, struct message *out)
 {
 	*out = (struct message){ 0 };

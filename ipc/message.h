@@ -35,7 +35,7 @@ enum message_way { FROM_WORKER = 1, TO_WORKER = 2, FROM_CLIENT = 4, FROM_SERVICE
 	X(START, 64, TO_WORKER, "job:s")                                                           \
 	X(CANCEL, 65, TO_WORKER, "")                                                               \
 	X(SUBMIT, 128, FROM_CLIENT, "id:i jobs:a")                                                 \
-	X(LIST, 129, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                                  \
+	X(LIST, 129, FROM_CLIENT, "id:i jobs:a? group:s? all:b? full:b?")                          \
 	X(WATCH, 130, FROM_CLIENT, "id:i jobs:a? group:s? stay:b?")                                \
 	X(SUSPEND, 131, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                               \
 	X(ACTIVATE, 132, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                              \
@@ -43,7 +43,7 @@ enum message_way { FROM_WORKER = 1, TO_WORKER = 2, FROM_CLIENT = 4, FROM_SERVICE
 	X(HOLD, 134, FROM_CLIENT, "id:i jobs:a? group:s? all:b? after_current:b?")                 \
 	X(RELEASE, 135, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                               \
 	X(RETRY, 136, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                                 \
-	X(PRIORITY, 137, FROM_CLIENT, "id:i jobs:a? group:s? all:b? priority:i top:b?")                   \
+	X(PRIORITY, 137, FROM_CLIENT, "id:i jobs:a? group:s? all:b? priority:i top:b?")            \
 	X(WAIT, 138, FROM_CLIENT, "id:i jobs:a? group:s? all:b?")                                  \
 	X(LOG, 139, FROM_CLIENT, "id:i job:i follow:b?")                                           \
 	X(SHUTDOWN, 140, FROM_CLIENT, "id:i")                                                      \
@@ -103,6 +103,13 @@ void message_reader_filled(struct message_reader *r, size_t n);
  * length, unknown type, not allowed on this way, bad JSON, missing or mistyped field): see reason.
  */
 int message_reader_next(struct message_reader *r, struct message *out);
+
+/*
+ * Where a whole packet of that type is next: its text as it came, not looked into, borrowed until more
+ * is read. False: nothing is taken, message_reader_next says what there is.
+ */
+bool message_reader_text(struct message_reader *r, enum message_type type, const char **text,
+                         size_t *n);
 
 /* True when bytes of an unfinished packet are left (end of pipe came in the middle of one). */
 bool message_reader_partial(const struct message_reader *r);

@@ -35,9 +35,9 @@ void job_list_put(struct job_list *l,
                   const struct Stats *s); /* replace the one of that id, or add */
 void job_list_finish(struct job_list *l);
 
-/* {"version":1,"jobs":[...]}, a job a line: one is added (a client_job); all are printed on standard
- * output and *t is finished. Exit status. */
-bool job_text_add(void *data, const struct Stats *s);
+/* {"version":1,"jobs":[...]}, a job a line: *t has the records with that between them; it is finished.
+ * Exit status. */
+extern const char job_text_between[];
 int job_text_print(struct text *t);
 int job_list_print_json(const struct job_list *l);
 

@@ -66,24 +66,19 @@ void job_list_finish(struct job_list *l)
 	*l = (struct job_list){ 0 };
 }
 
-bool job_text_add(void *data, const struct Stats *s)
-{
-	struct text *t = data;
-
-	text_add(t, t->n ? ",\n" : "{\"version\":1,\"jobs\":[\n");
-	stats_write(t, s);
-	return true;
-}
+const char job_text_between[] = ",\n";
 
 int job_text_print(struct text *t)
 {
 	const struct report terminal = report_stderr("batten");
 	enum status st = ST_OK;
 
-	text_add(t, t->n ? "]}\n" : "{\"version\":1,\"jobs\":[]}\n");
 	if (t->failed)
 		st = report_error(&terminal, ST_RESOURCE, "memory ran out");
-	else if (fwrite(t->s, 1, t->n, stdout) != t->n || fflush(stdout))
+	else if (fputs(t->n ? "{\"version\":1,\"jobs\":[\n" : "{\"version\":1,\"jobs\":[", stdout) <
+	                 0 ||
+	         fwrite(t->n ? t->s : "", 1, t->n, stdout) != t->n || fputs("]}\n", stdout) < 0 ||
+	         fflush(stdout))
 		st = report_error(&terminal, ST_RESOURCE, "cannot write to standard output");
 	text_finish(t);
 	return status_exit(st);
@@ -93,8 +88,11 @@ int job_list_print_json(const struct job_list *l)
 {
 	struct text t = { .failed = l->failed };
 
-	for (size_t i = 0; i < l->n; i++)
-		job_text_add(&t, &l->jobs[i]);
+	for (size_t i = 0; i < l->n; i++) {
+		if (i)
+			text_add(&t, job_text_between);
+		stats_write(&t, &l->jobs[i]);
+	}
 	return job_text_print(&t);
 }
 

@@ -49,8 +49,7 @@ static int jobs_run(const struct invocation *i)
 		rc = follow(&c, i, body);
 	} else if (i->json) {
 		struct text t = { 0 };
-		st = client_request(c.client, MESSAGE_LIST, body, job_text_add, NULL, &t,
-		                    &i->report);
+		st = client_list(c.client, body, job_text_between, &t, &i->report);
 		rc = st == ST_OK ? job_text_print(&t) : status_exit(st);
 		text_finish(&t);
 	} else {

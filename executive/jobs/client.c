@@ -23,6 +23,8 @@ extern char **environ;
 
 enum { HELLO_MS = 10000, READY_MS = 10000, READ_BYTES = 1 << 16, STARTS = 3, SHUTDOWN_MS = 10000 };
 
+static const char went_away[] = "the service went away; the next job verb starts it again";
+
 struct client {
 	int fd;
 	int64_t last_id;
@@ -182,9 +184,7 @@ static enum status next_packet(struct client *c, struct message *m, int ms, cons
 		int came = take_in(c, ms, -1);
 		c->gone |= came < 0;
 		if (came < 0)
-			return report_error(
-			        r, ST_RESOURCE,
-			        "the service went away; the next job verb starts it again");
+			return report_error(r, ST_RESOURCE, "%s", went_away);
 		if (!came && ms >= 0)
 			return report_error(
 			        r, ST_RESOURCE,
@@ -420,6 +420,72 @@ enum status client_request(struct client *c, enum message_type type, json_t *bod
 		st = deliver(c, &m, on_job, on_text, data, &end, r);
 		message_finish(&m);
 	}
+	return st;
+}
+
+/* The record in {"id":ID,"job":RECORD} as it is, where it is one with all its fields. */
+static bool record_copy(const char *text, size_t n, struct text *out)
+{
+	static const char key[] = "\"job\":", full[] = "\"color\":\"#";
+	const char *begin = memmem(text, n < 64 ? n : 64, key, sizeof key - 1);
+	if (!begin || n < sizeof key || text[n - 1] != '}')
+		return false;
+	begin += sizeof key - 1;
+	size_t length = (size_t)(text + n - 1 - begin);
+	if (!memmem(begin, length, full, sizeof full - 1))
+		return false;
+	text_add_bytes(out, begin, length);
+	return true;
+}
+
+/* One without: as it lies in the ledger, or from a service of before. */
+static bool record_write(const char *text, size_t n, struct text *out)
+{
+	struct Stats s;
+	json_t *o = json_loadb(text, n, 0, NULL);
+	bool good = stats_from_json(&s, json_object_get(o, "job")) == ST_OK;
+	if (good)
+		stats_write(out, &s);
+	stats_finish(&s);
+	json_decref(o);
+	return good;
+}
+
+/* What is there of the list; what is missing is waited for. */
+static enum status list_on(struct client *c, const char *between, struct text *out, bool *end,
+                           const struct report *r)
+{
+	const char *text;
+	struct message m;
+	size_t n;
+
+	while (message_reader_text(&c->reader, MESSAGE_JOB, &text, &n)) {
+		if (out->n)
+			text_add(out, between);
+		if (!record_copy(text, n, out) && !record_write(text, n, out))
+			return report_error(r, ST_INTERNAL, "the service sent a job that is none");
+	}
+	int got = message_reader_next(&c->reader, &m);
+	if (got < 0)
+		return report_error(r, ST_INTERNAL, "the service sent no packet: %s",
+		                    c->reader.reason);
+	if (!got)
+		return take_in(c, -1, -1) < 0 ? report_error(r, ST_RESOURCE, "%s", went_away)
+		                              : ST_OK;
+	enum status st = deliver(c, &m, NULL, NULL, NULL, end, r);
+	message_finish(&m);
+	return st;
+}
+
+enum status client_list(struct client *c, json_t *body, const char *between, struct text *out,
+                        const struct report *r)
+{
+	bool end = false;
+
+	json_object_set_new(body, "full", json_true());
+	enum status st = client_send(c, MESSAGE_LIST, body, r);
+	while (st == ST_OK && !end)
+		st = list_on(c, between, out, &end, r);
 	return st;
 }
 

@@ -54,6 +54,7 @@ struct job {
 	bool in_line;
 	bool front; /* first in line */
 	bool forgotten;
+	bool needed;   /* by one that has not ended; as of the last archive_let_go */
 	int unsettled; /* jobs it waits for */
 	int losses;    /* of processes that were not its own doing */
 
@@ -102,8 +103,9 @@ struct queue {
 	int n_history;
 	struct likeness likenesses[LIKENESSES]; /* a ring */
 	int next_likeness;
-	double sync_at;  /* when the ends of jobs must be on the disk */
-	int64_t sync_id; /* one of those jobs */
+	struct Stats visitor; /* owned; of queue_find, for one that is not in memory */
+	double sync_at;       /* when the ends of jobs must be on the disk */
+	int64_t sync_id;      /* one of those jobs */
 };
 
 double queue_now(const struct queue *q);
@@ -111,6 +113,19 @@ struct job *queue_job(const struct queue *q, int64_t id);
 struct pool *job_pool(const struct job *job);
 int job_threads(const struct job *job);        /* of all its processes */
 int64_t job_memory_mib(const struct job *job); /* likewise */
+
+/* queue.c */
+struct job *job_create(struct queue *q);
+void job_destroy(struct job *job);
+void queue_insert(struct queue *q, struct job *job);
+/* Take those that are marked as forgotten out of memory. */
+void queue_drop_forgotten(struct queue *q);
+
+/* archive.c */
+struct job *archive_fetch(struct queue *q, int64_t id); /* into memory; NULL: there is none */
+void archive_fetch_awaited(struct job *job);            /* what it waits for */
+void archive_fetch_last(struct queue *q);               /* to learn what they took */
+void archive_let_go(struct queue *q);                   /* of what ended long ago */
 
 /* state.c */
 /* Let it happen; ST_INPUT where the table has no such cell. */

@@ -1,6 +1,7 @@
 /* ledger.c - the jobs in an SQLite file, in WAL mode. */
 #include "ledger.h"
 
+#include <math.h>
 #include <sqlite3.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,11 +9,11 @@
 #include "json.h"
 #include "text.h"
 
-enum { LEDGER_VERSION = 1 };
+enum { LEDGER_VERSION = 2 };
 
 struct book {
 	sqlite3 *db;
-	sqlite3_stmt *put, *drop, *begin, *commit, *rollback;
+	sqlite3_stmt *put, *drop, *begin, *commit, *rollback, *find, *text;
 	char *path;
 	bool full;        /* synchronous=FULL is set */
 	sqlite3_vfs near; /* takes names as they are; zName is set while it is registered */
@@ -75,6 +76,11 @@ static bool change_write(struct book *b, const struct ledger_change *c, struct t
 		sqlite3_bind_int(s, 3, c->killed);
 		sqlite3_bind_text(s, 4, job_state_table[c->stats->state].word, -1, SQLITE_STATIC);
 		sqlite3_bind_text64(s, 5, record->s, record->n, SQLITE_STATIC, SQLITE_UTF8);
+		if (job_state_table[c->stats->state].over)
+			sqlite3_bind_double(s, 6, fmax(c->stats->ended, 0));
+		else
+			sqlite3_bind_null(s, 6);
+		sqlite3_bind_text(s, 7, c->stats->group, -1, SQLITE_STATIC);
 	}
 	return book_step(s);
 }
@@ -181,13 +187,110 @@ static enum status book_load(void *data, ledger_job *each, void *each_data, int6
 	if (st != ST_OK)
 		return st;
 	*held = marks > 0;
-	if (sqlite3_prepare_v2(b->db, "SELECT id, front, killed, record FROM jobs ORDER BY id", -1,
-	                       &s, NULL) != SQLITE_OK)
+	if (sqlite3_prepare_v2(
+	            b->db,
+	            "SELECT id, front, killed, record FROM jobs WHERE ended IS NULL ORDER BY id",
+	            -1, &s, NULL) != SQLITE_OK)
 		return book_error(b, "read", r);
 	while (st == ST_OK && (code = sqlite3_step(s)) == SQLITE_ROW)
 		st = row_load(b, s, each, each_data, r);
 	if (st == ST_OK && code != SQLITE_DONE)
 		st = book_error(b, "read", r);
+	sqlite3_finalize(s);
+	return st;
+}
+
+static enum status book_find(void *data, int64_t id, ledger_job *each, void *each_data,
+                             const struct report *r)
+{
+	struct book *b = data;
+	sqlite3_bind_int64(b->find, 1, id);
+	int code = sqlite3_step(b->find);
+	enum status st = ST_OK;
+	if (code == SQLITE_ROW)
+		st = row_load(b, b->find, each, each_data, r);
+	else if (code != SQLITE_DONE)
+		st = book_error(b, "read", r);
+	sqlite3_reset(b->find);
+	return st;
+}
+
+static bool book_text(void *data, int64_t id, struct text *out)
+{
+	struct book *b = data;
+	sqlite3_bind_int64(b->text, 1, id);
+	bool there = sqlite3_step(b->text) == SQLITE_ROW;
+	if (there)
+		text_add_bytes(out, sqlite3_column_text(b->text, 0),
+		               (size_t)sqlite3_column_bytes(b->text, 0));
+	sqlite3_reset(b->text);
+	return there;
+}
+
+/* The statement of a choice; which indices serve it stands at `tables`. */
+static sqlite3_stmt *choice_prepare(struct book *b, const struct ledger_choice *c)
+{
+	struct text sql = { 0 };
+	sqlite3_stmt *s = NULL;
+	const char *mark = " AND state IN ('";
+	text_add(&sql, "SELECT id FROM jobs WHERE ended>=?1");
+	if (c->group)
+		text_add(&sql, " AND grp=?2");
+	for (int state = 0; state < N_JOB_STATES; state++)
+		if (c->states & 1U << state) {
+			text_addf(&sql, "%s%s", mark, job_state_table[state].word);
+			mark = "','";
+		}
+	if (c->states)
+		text_add(&sql, "')");
+	if (c->newest)
+		text_add(&sql, " ORDER BY ended DESC LIMIT ?3");
+	if (sql.failed || sqlite3_prepare_v2(b->db, sql.s, -1, &s, NULL) != SQLITE_OK)
+		s = NULL;
+	text_finish(&sql);
+	sqlite3_bind_double(s, 1, c->since);
+	if (c->group)
+		sqlite3_bind_text(s, 2, c->group, -1, SQLITE_STATIC);
+	if (c->newest)
+		sqlite3_bind_int(s, 3, c->newest);
+	return s;
+}
+
+static int by_id(const void *a, const void *b)
+{
+	int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
+	return (x > y) - (x < y);
+}
+
+static enum status book_choose(void *data, const struct ledger_choice *choice, int64_t **ids,
+                               size_t *n, const struct report *r)
+{
+	struct book *b = data;
+	size_t cap = 0;
+	int code = SQLITE_DONE;
+	*ids = NULL;
+	*n = 0;
+	sqlite3_stmt *s = choice_prepare(b, choice);
+	while (s && (code = sqlite3_step(s)) == SQLITE_ROW) {
+		if (*n == cap) {
+			cap = cap ? 2 * cap : 64;
+			int64_t *more = reallocarray(*ids, cap, sizeof *more);
+			if (!more)
+				break;
+			*ids = more;
+		}
+		(*ids)[(*n)++] = sqlite3_column_int64(s, 0);
+	}
+	enum status st = ST_OK;
+	if (!s || code != SQLITE_DONE) {
+		st = code == SQLITE_ROW ? report_error(r, ST_RESOURCE, "out of memory")
+		                        : book_error(b, "read", r);
+		free(*ids);
+		*ids = NULL;
+		*n = 0;
+	} else if (*n) {
+		qsort(*ids, *n, sizeof **ids, by_id);
+	}
 	sqlite3_finalize(s);
 	return st;
 }
@@ -216,12 +319,28 @@ static const char settings[] = "PRAGMA locking_mode=EXCLUSIVE;"
                                "PRAGMA journal_mode=WAL;"
                                "PRAGMA synchronous=NORMAL;"
                                "PRAGMA busy_timeout=2000;";
-static const char tables[] = "BEGIN;"
-                             "CREATE TABLE IF NOT EXISTS jobs(id INTEGER PRIMARY KEY AUTOINCREMENT,"
-                             " front INTEGER NOT NULL, killed INTEGER NOT NULL,"
-                             " state TEXT NOT NULL, record TEXT NOT NULL);"
-                             "PRAGMA user_version=1;"
-                             "COMMIT;";
+/* ended and grp (NULL: none) are what the record says; a job that is over has an ended. What is over is
+ * many and looked for seldom: nothing but these indices is read to find what is not. */
+#define LEDGER_INDICES                                                                             \
+	"CREATE INDEX IF NOT EXISTS live ON jobs(id) WHERE ended IS NULL;"                         \
+	"CREATE INDEX IF NOT EXISTS over ON jobs(ended, state) WHERE ended IS NOT NULL;"           \
+	"CREATE INDEX IF NOT EXISTS grouped ON jobs(grp, state, ended) WHERE grp IS NOT NULL;"     \
+	"PRAGMA user_version=2;"                                                                   \
+	"COMMIT;"
+static const char tables[] =
+        "BEGIN;"
+        "CREATE TABLE IF NOT EXISTS jobs(id INTEGER PRIMARY KEY AUTOINCREMENT,"
+        " front INTEGER NOT NULL, killed INTEGER NOT NULL,"
+        " state TEXT NOT NULL, record TEXT NOT NULL, ended REAL, grp TEXT);" LEDGER_INDICES;
+/* Version 1 was without them. */
+static const char tables_from_1[] =
+        "BEGIN;"
+        "ALTER TABLE jobs ADD COLUMN ended REAL;"
+        "ALTER TABLE jobs ADD COLUMN grp TEXT;"
+        "UPDATE jobs SET grp = json_extract(record, '$.group') WHERE json_valid(record);"
+        "UPDATE jobs SET ended = CASE WHEN json_valid(record) THEN"
+        " coalesce(json_extract(record, '$.ended'), 0) ELSE 0 END"
+        " WHERE state IN ('done', 'failed', 'killed', 'lost');" LEDGER_INDICES;
 
 static bool book_prepare(struct book *b)
 {
@@ -229,10 +348,13 @@ static bool book_prepare(struct book *b)
 		sqlite3_stmt **s;
 		const char *sql;
 	} statements[] = {
-		{ &b->put,
-		  "INSERT INTO jobs(id, front, killed, state, record) VALUES(?,?,?,?,?)"
-		  " ON CONFLICT(id) DO UPDATE SET front=excluded.front,"
-		  " killed=excluded.killed, state=excluded.state, record=excluded.record" },
+		{ &b->put, "INSERT INTO jobs(id, front, killed, state, record, ended, grp)"
+		           " VALUES(?,?,?,?,?,?,?)"
+		           " ON CONFLICT(id) DO UPDATE SET front=excluded.front,"
+		           " killed=excluded.killed, state=excluded.state, record=excluded.record,"
+		           " ended=excluded.ended, grp=excluded.grp" },
+		{ &b->find, "SELECT id, front, killed, record FROM jobs WHERE id=?" },
+		{ &b->text, "SELECT record FROM jobs WHERE id=? AND json_valid(record)" },
 		{ &b->drop, "DELETE FROM jobs WHERE id=?" },
 		{ &b->begin, "BEGIN IMMEDIATE" },
 		{ &b->commit, "COMMIT" },
@@ -275,6 +397,8 @@ static void book_close(struct book *b)
 	sqlite3_finalize(b->begin);
 	sqlite3_finalize(b->commit);
 	sqlite3_finalize(b->rollback);
+	sqlite3_finalize(b->find);
+	sqlite3_finalize(b->text);
 	sqlite3_close(b->db);
 	if (b->near.zName)
 		sqlite3_vfs_unregister(&b->near);
@@ -298,7 +422,7 @@ enum status ledger_open(struct ledger *out, const char *path, const struct repor
 	if (st == ST_OK)
 		st = book_version(b, &version, r);
 	if (st == ST_OK && version < LEDGER_VERSION &&
-	    sqlite3_exec(b->db, tables, NULL, NULL, NULL) != SQLITE_OK)
+	    sqlite3_exec(b->db, version ? tables_from_1 : tables, NULL, NULL, NULL) != SQLITE_OK)
 		st = book_error(b, "open", r);
 	if (st == ST_OK && !book_prepare(b))
 		st = book_error(b, "open", r);
@@ -307,7 +431,13 @@ enum status ledger_open(struct ledger *out, const char *path, const struct repor
 		return st;
 	}
 	*out = (struct ledger){
-		.data = b, .write = book_write, .hold = book_hold, .load = book_load
+		.data = b,
+		.write = book_write,
+		.hold = book_hold,
+		.load = book_load,
+		.find = book_find,
+		.text = book_text,
+		.choose = book_choose,
 	};
 	return ST_OK;
 }

@@ -30,15 +30,15 @@ static int64_t name_id(const char *name, const char *extension)
 struct keeper {
 	struct queue *queue;
 	const char *extension;
-	char **inputs; /* owned; borrowed strings, sorted */
-	size_t n_inputs;
+	char **inputs; /* owned, strings too; sorted */
+	size_t n_inputs, cap;
 };
 
 static bool keeps_id(const struct keeper *k, const char *path, const char *name)
 {
 	int64_t id = name_id(name, k->extension);
 	(void)path;
-	return id < 0 || queue_find(k->queue, id);
+	return id < 0 || queue_has(k->queue, id);
 }
 
 static int by_name(const void *a, const void *b)
@@ -71,21 +71,41 @@ static void folder_prune(const struct project *p, const char *folder, const stru
 	free(path);
 }
 
-/* Every input of every job left; false for want of memory, then all are kept. */
+static bool inputs_add(struct keeper *k, const struct Stats *s)
+{
+	for (int i = 0; i < s->n_inputs; i++) {
+		if (k->n_inputs == k->cap) {
+			size_t cap = k->cap ? 2 * k->cap : 64;
+			char **more = reallocarray(k->inputs, cap, sizeof *more);
+			if (!more)
+				return false;
+			k->inputs = more;
+			k->cap = cap;
+		}
+		char *path = strdup(s->inputs[i].path);
+		if (!path)
+			return false;
+		k->inputs[k->n_inputs++] = path;
+	}
+	return true;
+}
+
+/* Every input of every job left; false where they cannot be known, then all are kept. */
 static bool inputs_gather(struct keeper *k)
 {
+	int64_t *over = NULL;
 	size_t n = 0;
-	for (int i = 0; i < queue_count(k->queue); i++)
-		n += (size_t)queue_at(k->queue, i)->n_inputs;
-	k->inputs = calloc(n + 1, sizeof *k->inputs);
-	for (int i = 0; k->inputs && i < queue_count(k->queue); i++) {
-		const struct Stats *s = queue_at(k->queue, i);
-		for (int j = 0; j < s->n_inputs; j++)
-			k->inputs[k->n_inputs++] = s->inputs[j].path;
+	bool good = queue_over(k->queue, &(struct ledger_choice){ 0 }, &over, &n, NULL) == ST_OK;
+	for (int i = 0; good && i < queue_count(k->queue); i++)
+		good = inputs_add(k, queue_at(k->queue, i));
+	for (size_t i = 0; good && i < n; i++) {
+		const struct Stats *s = queue_find(k->queue, over[i]);
+		good = s && inputs_add(k, s);
 	}
-	if (k->n_inputs)
+	free(over);
+	if (good && k->n_inputs)
 		qsort(k->inputs, k->n_inputs, sizeof *k->inputs, by_name);
-	return k->inputs;
+	return good;
 }
 
 void prune_files(const struct project *p, struct queue *q)
@@ -99,6 +119,8 @@ void prune_files(const struct project *p, struct queue *q)
 	folder_prune(p, "parts", &k, keeps_id);
 	if (inputs_gather(&k))
 		folder_prune(p, "inputs", &k, keeps_input);
+	for (size_t i = 0; i < k.n_inputs; i++)
+		free(k.inputs[i]);
 	free(k.inputs);
 	malloc_trim(0); /* the records that went */
 }

@@ -20,7 +20,7 @@ enum status queue_create(struct queue **out, const struct queue_ports *ports,
 	return ST_OK;
 }
 
-static void job_destroy(struct job *job)
+void job_destroy(struct job *job)
 {
 	if (!job)
 		return;
@@ -39,6 +39,7 @@ void queue_destroy(struct queue *q)
 	free(q->active);
 	free(q->changed);
 	free(q->fault);
+	stats_finish(&q->visitor);
 	history_finish(q);
 	free(q);
 }
@@ -83,7 +84,7 @@ static bool grow(void *array, int *cap, int need, size_t size)
 }
 
 /* Room in `changed` is made with the job, so that a change cannot fail. */
-static struct job *job_create(struct queue *q)
+struct job *job_create(struct queue *q)
 {
 	if (!grow(&q->jobs, &q->cap, q->n + 1, sizeof(struct job *)) ||
 	    !grow(&q->changed, &q->changed_cap, q->n + 1, sizeof(struct job *)))
@@ -110,13 +111,13 @@ void job_changed(struct job *job, bool urgent)
 }
 
 /* What it waits for was there before it; -1 - i is job i of the same request. */
-static enum status after_check(const struct queue *q, const char *how, int64_t *ids, int n,
-                               int64_t id, int64_t first, const struct report *r)
+static enum status after_check(struct queue *q, const char *how, int64_t *ids, int n, int64_t id,
+                               int64_t first, const struct report *r)
 {
 	for (int k = 0; k < n; k++) {
 		if (ids[k] < 0 && ids[k] > -INT32_MAX)
 			ids[k] = first - 1 - ids[k];
-		if (ids[k] < 1 || ids[k] >= id || (ids[k] < first && !queue_job(q, ids[k])))
+		if (ids[k] < 1 || ids[k] >= id || (ids[k] < first && !archive_fetch(q, ids[k])))
 			return report_error(
 			        r, ST_PARAMETER,
 			        "--after %lld%s: there is no such job; 'batten jobs --all' "
@@ -162,9 +163,12 @@ static enum status job_submitted(struct job *job, const struct Stats *given, int
 	return st;
 }
 
-static void queue_insert(struct queue *q, struct job *job)
+void queue_insert(struct queue *q, struct job *job)
 {
-	q->jobs[q->n++] = job;
+	int at = queue_index(q, job->stats.id);
+	memmove(&q->jobs[at + 1], &q->jobs[at], (size_t)(q->n - at) * sizeof *q->jobs);
+	q->jobs[at] = job;
+	q->n++;
 	q->count[job->stats.state]++;
 	q->dependents += line_depends(job);
 	if (job->stats.id > q->last)
@@ -187,7 +191,7 @@ enum status queue_submit(struct queue *q, const struct Stats *s, int n, int64_t 
 	struct ledger_change *changes = calloc((size_t)n + 1, sizeof *changes);
 	struct job **fresh = calloc((size_t)n + 1, sizeof *fresh);
 	enum status st = changes && fresh ? ST_OK : ST_RESOURCE;
-	int made = 0, before = q->n;
+	int made = 0;
 	int64_t last = q->last;
 	*first = q->last + 1;
 	if (q->leaving)
@@ -211,7 +215,7 @@ enum status queue_submit(struct queue *q, const struct Stats *s, int n, int64_t 
 	if (st == ST_OK && n)
 		st = q->ports.ledger->write(q->ports.ledger->data, changes, (size_t)n, true, r);
 	if (st != ST_OK) {
-		while (q->n > before) {
+		while (q->n && q->jobs[q->n - 1]->stats.id >= *first) {
 			const struct job *gone = q->jobs[--q->n];
 			q->count[gone->stats.state]--;
 			q->dependents -= line_depends(gone);
@@ -257,8 +261,6 @@ static void job_loaded(struct job *job, bool killed)
 		job_tidy(job);
 	}
 	job->stats.pid = 0;
-	if (state == JOB_DONE)
-		history_add(job);
 	if (state == JOB_QUEUED && job->front && job->stats.started > 0)
 		job_resumed(job);
 	if (state != JOB_STARTING && state != JOB_RUNNING && state != JOB_ENDING)
@@ -305,19 +307,32 @@ enum status queue_load(struct queue *q, const struct report *r)
 	        q->ports.ledger->load(q->ports.ledger->data, queue_take, q, &last, &q->held, r);
 	if (last > q->last)
 		q->last = last;
-	for (int i = 0; i < q->n && st == ST_OK; i++)
-		queue_admit(q->jobs[i]);
+	int n = q->n;
+	struct job **live = calloc((size_t)n + 1, sizeof *live);
+	if (!live)
+		st = ST_RESOURCE;
+	if (live && n)
+		memcpy(live, q->jobs, (size_t)n * sizeof *live);
+	for (int i = 0; i < n && st == ST_OK; i++)
+		archive_fetch_awaited(live[i]);
+	for (int i = 0; i < n && st == ST_OK; i++)
+		if (!job_state_table[live[i]->stats.state].over)
+			queue_admit(live[i]);
+	free(live);
+	if (st == ST_OK)
+		archive_fetch_last(q);
 	return st;
 }
 
 enum status queue_event(struct queue *q, int64_t id, enum job_event event, const char *by,
                         const struct report *r)
 {
-	struct job *job = queue_job(q, id);
+	struct job *job = archive_fetch(q, id);
 	if (!job)
 		return report_error(r, ST_INPUT,
 		                    "there is no job %lld; 'batten jobs --all' lists them",
 		                    (long long)id);
+	archive_fetch_awaited(job);
 	q->retry_at = 0; /* somebody waits: a ledger that failed is tried at once */
 	if (job_step(job, event, by) != ST_OK)
 		return report_error(r, ST_INPUT, "job %lld is %s and cannot be %s", (long long)id,
@@ -379,6 +394,29 @@ static int without_forgotten(struct job **jobs, int n)
 	return kept;
 }
 
+void queue_drop_forgotten(struct queue *q)
+{
+	int n = q->n;
+	struct job **gone = calloc((size_t)n + 1, sizeof *gone);
+	int n_gone = 0;
+	for (int i = 0; i < n && gone; i++)
+		if (q->jobs[i]->forgotten)
+			gone[n_gone++] = q->jobs[i];
+	for (int i = 0; i < N_POOLS; i++)
+		if (q->pools[i].blocked && q->pools[i].blocked->forgotten)
+			q->pools[i].blocked = NULL;
+	if (gone) {
+		q->n_changed = without_forgotten(q->changed, q->n_changed);
+		q->n = without_forgotten(q->jobs, q->n);
+	}
+	for (int i = 0; i < n_gone; i++) {
+		q->count[gone[i]->stats.state]--;
+		q->dependents -= line_depends(gone[i]);
+		job_destroy(gone[i]);
+	}
+	free(gone);
+}
+
 enum status queue_forget(struct queue *q, const int64_t *ids, int n, const struct report *r)
 {
 	struct ledger_change *changes = calloc((size_t)n + 1, sizeof *changes);
@@ -386,28 +424,19 @@ enum status queue_forget(struct queue *q, const int64_t *ids, int n, const struc
 	for (int i = 0; i < n && st == ST_OK; i++) {
 		const struct job *job = queue_job(q, ids[i]);
 		changes[i].id = ids[i];
-		if (!job || !job_state_table[job->stats.state].over)
+		/* one that is not in memory has ended */
+		if (job && !job_state_table[job->stats.state].over)
 			st = report_error(r, ST_INPUT, "job %lld has not ended", (long long)ids[i]);
 	}
-	struct job **gone = calloc((size_t)n + 1, sizeof *gone);
-	if (!gone && st == ST_OK)
-		st = ST_RESOURCE;
 	if (st == ST_OK && n)
 		st = q->ports.ledger->write(q->ports.ledger->data, changes, (size_t)n, false, r);
 	for (int i = 0; i < n && st == ST_OK; i++) {
-		gone[i] = queue_job(q, ids[i]);
-		gone[i]->forgotten = true;
+		struct job *job = queue_job(q, ids[i]);
+		if (job)
+			job->forgotten = true;
 	}
-	if (st == ST_OK) {
-		q->n_changed = without_forgotten(q->changed, q->n_changed);
-		q->n = without_forgotten(q->jobs, q->n);
-	}
-	for (int i = 0; i < n && st == ST_OK; i++) {
-		q->count[gone[i]->stats.state]--;
-		q->dependents -= line_depends(gone[i]);
-		job_destroy(gone[i]);
-	}
-	free(gone);
+	if (st == ST_OK)
+		queue_drop_forgotten(q);
 	free(changes);
 	return st;
 }
@@ -430,5 +459,15 @@ int queue_unended(const struct queue *q, const char *group, bool *all_done)
 		n += !job_state_table[s->state].over;
 		*all_done &= s->state == JOB_DONE;
 	}
+	const struct ledger_choice bad = {
+		.group = group,
+		.states = 1U << JOB_FAILED | 1U << JOB_KILLED | 1U << JOB_LOST,
+		.newest = 1,
+	};
+	int64_t *ids = NULL;
+	size_t n_bad = 0;
+	if (!n && *all_done && queue_over(q, &bad, &ids, &n_bad, NULL) == ST_OK)
+		*all_done = !n_bad;
+	free(ids);
 	return n;
 }

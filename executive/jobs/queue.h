@@ -26,7 +26,8 @@ struct queue_limits {
 	int64_t memory_mib; /* at once, of jobs that state it; 0: no limit */
 	int job_threads;    /* of a job that does not say */
 	int64_t job_memory_mib;
-	double job_wall_s;      /* 0: no limit */
+	double job_wall_s; /* 0: no limit */
+	int over_kept;     /* that are over, in memory: so many, up to twice as many for a while */
 	int64_t disk_floor_mib; /* no job starts where less is free */
 	enum resume resume;
 	double cancel_grace, term_grace, hello_grace, end_grace; /* seconds */
@@ -62,7 +63,8 @@ void queue_destroy(struct queue *q);
 /* What the launcher of this queue tells. */
 struct launcher_sink queue_sink(struct queue *q);
 
-/* Take the jobs out of the ledger; what had a worker is queued again, or lost. */
+/* Take the jobs that have not ended out of the ledger; what had a worker is queued again, or lost. Of
+ * those that have, only what those wait for, and the last ones for what they took. */
 enum status queue_load(struct queue *q, const struct report *r);
 
 /*
@@ -100,10 +102,23 @@ void queue_turn(struct queue *q);
 double queue_deadline(const struct queue *q);
 void queue_tick(struct queue *q);
 
-/* Jobs by rising id; borrowed until the next call that changes the queue. NULL: there is none. */
+/* The jobs in memory by rising id: all that have not ended, and some that have. Borrowed until the next
+ * call that changes the queue. */
 int queue_count(const struct queue *q);
 const struct Stats *queue_at(struct queue *q, int i);
+
+/* Any job, also one that is only in the ledger; borrowed until the next call. NULL: there is none. */
 const struct Stats *queue_find(struct queue *q, int64_t id);
+bool queue_has(struct queue *q, int64_t id);
+bool queue_holds(const struct queue *q, int64_t id); /* in memory */
+
+/* Its record as JSON, appended: stats_write_brief, or where it is in memory and full is asked for
+ * stats_write. False: there is no such job. */
+bool queue_write(struct queue *q, int64_t id, bool full, struct text *out);
+
+/* Ids of jobs that are over and not in memory, by rising number; *ids is the caller's to free. */
+enum status queue_over(const struct queue *q, const struct ledger_choice *choice, int64_t **ids,
+                       size_t *n, const struct report *r);
 
 int queue_unended(const struct queue *q, const char *group,
                   bool *all_done);              /* jobs of that group */

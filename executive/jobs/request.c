@@ -6,7 +6,8 @@
 #include "json.h"
 #include "server.h"
 
-enum { HOUR_S = 3600 };
+/* Of those that have ended WATCH tells so many, without a name; PRUNE forgets so many at once. */
+enum { HOUR_S = 3600, WATCH_LAST = 1000, PRUNE_PAGE = 1000 };
 
 /* A row of the table: what it does; the event it stands for; the state a job must come to. */
 struct request_row {
@@ -54,6 +55,7 @@ void request_destroy(struct request *q)
 {
 	log_reader_destroy(q->log);
 	free(q->jobs);
+	free(q->list);
 	free(q->group);
 	free(q->error);
 	free(q);
@@ -88,7 +90,7 @@ static bool select_named(struct request *q, const json_t *ids)
 		return false;
 	for (size_t i = 0; i < json_array_size(ids); i++) {
 		int64_t id = json_integer_value(json_array_get(ids, i));
-		if (queue_find(queue_of(q), id))
+		if (queue_has(queue_of(q), id))
 			q->jobs[q->n++] = id;
 		else
 			report_error(&r, ST_INPUT,
@@ -104,28 +106,63 @@ static bool in_group(const struct Stats *s, const char *group)
 	return !group || (s->group && !strcmp(s->group, group));
 }
 
-/* Those of a group (NULL: all) that pass. */
-static bool select_where(struct request *q, const char *group,
-                         bool (*pass)(const struct Stats *s, const void *data), const void *data)
+static bool group_met(struct request *q, const char *group)
+{
+	const struct ledger_choice any = { .group = group, .newest = 1 };
+	struct report r = request_report(q);
+	int64_t *ids;
+	size_t n;
+	for (int i = 0; i < queue_count(queue_of(q)); i++)
+		if (in_group(queue_at(queue_of(q), i), group))
+			return true;
+	if (queue_over(queue_of(q), &any, &ids, &n, &r) != ST_OK)
+		return false;
+	free(ids);
+	if (!n)
+		report_error(&r, ST_INPUT, "there is no group '%s'", group);
+	return n;
+}
+
+/* Which jobs: those in memory that pass, and those of the ledger that are chosen (NULL: none). */
+struct selection {
+	bool (*pass)(const struct Stats *s, const void *data); /* NULL: all */
+	const void *data;
+	const struct ledger_choice *over; /* its group is set by select_where */
+};
+
+/* Of a group, NULL: of all. */
+static bool select_where(struct request *q, const char *group, const struct selection *which)
 {
 	struct queue *jobs = queue_of(q);
-	int n = queue_count(jobs);
-	bool met = !group;
-	if (!jobs_room(q, (size_t)n))
+	struct report r = request_report(q);
+	int64_t *over = NULL;
+	size_t n_over = 0;
+	if (group && !group_met(q, group))
 		return false;
-	for (int i = 0; i < n; i++) {
+	if (which->over) {
+		struct ledger_choice choice = *which->over;
+		choice.group = group;
+		if (queue_over(jobs, &choice, &over, &n_over, &r) != ST_OK)
+			return false;
+	}
+	if (!jobs_room(q, (size_t)queue_count(jobs) + n_over)) {
+		free(over);
+		return false;
+	}
+	for (int i = 0; i < queue_count(jobs); i++) {
 		const struct Stats *s = queue_at(jobs, i);
-		if (!in_group(s, group))
-			continue;
-		met = true;
-		if (!pass || pass(s, data))
+		if (in_group(s, group) && (!which->pass || which->pass(s, which->data)))
 			q->jobs[q->n++] = s->id;
 	}
-	struct report r = request_report(q);
-	if (!met)
-		report_error(&r, ST_INPUT, "there is no group '%s'", group);
-	return met;
+	for (size_t i = 0; i < n_over; i++)
+		q->jobs[q->n++] = over[i];
+	free(over);
+	if (n_over)
+		qsort(q->jobs, (size_t)q->n, sizeof *q->jobs, by_id);
+	return true;
 }
+
+static const struct ledger_choice all_over = { 0 };
 
 static bool pass_event(const struct Stats *s, const void *data)
 {
@@ -172,13 +209,25 @@ static bool is_any(enum job_state s)
 
 /* Requests */
 
-static void send_jobs(struct request *q)
+/* Of the jobs named, or selected. */
+static void list_begin(struct request *q)
 {
-	for (int i = 0; i < q->n; i++) {
-		const struct Stats *s = queue_find(queue_of(q), q->jobs[i]);
-		if (s)
-			session_send_job(q->session, q->id, s);
-	}
+	free(q->list);
+	q->list = calloc((size_t)q->n + 1, sizeof *q->list);
+	q->n_list = q->list ? q->n : 0;
+	q->at_list = 0;
+	if (!q->list)
+		fail(q, ST_RESOURCE, "out of memory");
+	else if (q->n)
+		memcpy(q->list, q->jobs, (size_t)q->n * sizeof *q->list);
+}
+
+/* As much as the client has room for; true when all is said. */
+static bool list_send(struct request *q)
+{
+	while (q->at_list < q->n_list && session_backlog(q->session) < BACKLOG_FULL)
+		session_send_record(q->session, q->id, q->list[q->at_list++], q->full);
+	return q->at_list == q->n_list;
 }
 
 /* What changes jobs wants to be told which. */
@@ -215,14 +264,18 @@ static void take_event(struct request *q, const struct request_row *row, const j
 	const json_t *ids = json_object_get(body, "jobs");
 	const char *group = json_text(body, "group", NULL), *by = json_text(body, "by", "you");
 	bool lenient = row->event == EV_HOLD && json_flag(body, "after_current", false);
+	const struct ledger_choice bad = { .states = 1U << JOB_FAILED | 1U << JOB_LOST };
+	const struct selection which = {
+		.pass = lenient ? pass_unended : pass_event,
+		.data = &row->event,
+		.over = row->event == EV_RETRY ? &bad : NULL,
+	};
 	struct report r = request_report(q);
 	if (!somebody_named(q, body) || gate(q, row, body) != ST_OK) {
 		request_end(q);
 		return;
 	}
-	if (json_is_array(ids)
-	            ? !select_named(q, ids)
-	            : !select_where(q, group, lenient ? pass_unended : pass_event, &row->event)) {
+	if (json_is_array(ids) ? !select_named(q, ids) : !select_where(q, group, &which)) {
 		request_end(q);
 		return;
 	}
@@ -247,9 +300,9 @@ static void take_priority(struct request *q, const struct request_row *row, cons
 	if (priority < -1000000 || priority > 1000000)
 		report_error(&r, ST_PARAMETER, "priority is %lld, expected -1000000 to 1000000",
 		             (long long)priority);
-	else if (json_is_array(ids)
-	                 ? select_named(q, ids)
-	                 : select_where(q, json_text(body, "group", NULL), pass_unended, NULL)) {
+	else if (json_is_array(ids) ? select_named(q, ids)
+	                            : select_where(q, json_text(body, "group", NULL),
+	                                           &(struct selection){ .pass = pass_unended })) {
 		/* the first of several that are put first is put there last */
 		for (int i = 0; i < q->n; i++)
 			if (json_flag(body, "top", false))
@@ -265,11 +318,18 @@ static void take_list(struct request *q, const struct request_row *row, const js
 	const struct clock *clock = &q->session->server->clock;
 	double now = clock->date(clock->data);
 	bool all = json_flag(body, "all", false);
+	const struct ledger_choice recent = { .since = now - HOUR_S };
+	const struct selection which = {
+		.pass = all ? NULL : pass_recent,
+		.data = &now,
+		.over = all ? &all_over : &recent,
+	};
 	(void)row;
+	q->full = json_flag(body, "full", false);
 	if (json_is_array(ids))
 		select_named(q, ids);
 	else
-		select_where(q, json_text(body, "group", NULL), all ? NULL : pass_recent, &now);
+		select_where(q, json_text(body, "group", NULL), &which);
 }
 
 /* WAIT is answered when all have ended; without a name it is for those there are now. */
@@ -278,25 +338,30 @@ static void take_wait(struct request *q, const struct request_row *row, const js
 	const json_t *ids = json_object_get(body, "jobs");
 	const char *group = json_text(body, "group", NULL);
 	(void)row;
+	const struct selection which = {
+		.pass = group ? NULL : pass_unended,
+		.over = group ? &all_over : NULL,
+	};
 	if (json_is_array(ids))
 		select_named(q, ids);
 	else
-		select_where(q, group, group ? NULL : pass_unended, NULL);
+		select_where(q, group, &which);
 }
 
+/* Those of the group, or all that have not ended and the last that have. */
 static void watch_all(struct request *q)
 {
-	struct queue *jobs = queue_of(q);
+	const struct ledger_choice last = { .newest = WATCH_LAST };
+	const struct selection which = { .over = q->group ? &all_over : &last };
+	bool named = q->jobs;
 	q->behind = false;
-	if (q->jobs) {
-		send_jobs(q);
+	if (named || select_where(q, q->group, &which))
+		list_begin(q);
+	if (named)
 		return;
-	}
-	for (int i = 0; i < queue_count(jobs); i++) {
-		const struct Stats *s = queue_at(jobs, i);
-		if (in_group(s, q->group))
-			session_send_job(q->session, q->id, s);
-	}
+	free(q->jobs);
+	q->jobs = NULL;
+	q->n = 0;
 }
 
 static void take_watch(struct request *q, const struct request_row *row, const json_t *body)
@@ -314,6 +379,8 @@ static void take_watch(struct request *q, const struct request_row *row, const j
 		q->group = strdup(group);
 	}
 	watch_all(q);
+	if (q->error)
+		request_end(q);
 }
 
 static void take_log(struct request *q, const struct request_row *row, const json_t *body)
@@ -343,14 +410,39 @@ static void take_shutdown(struct request *q, const struct request_row *row, cons
 
 static void take_prune(struct request *q, const struct request_row *row, const json_t *body)
 {
-	struct report r = request_report(q);
 	(void)row;
 	(void)body;
-	if (select_where(q, NULL, pass_over, NULL)) {
-		send_jobs(q);
-		if (queue_forget(queue_of(q), q->jobs, q->n, &r) == ST_OK)
-			prune_files(q->session->server->project, queue_of(q));
+	if (select_where(q, NULL, &(struct selection){ .pass = pass_over, .over = &all_over }))
+		list_begin(q);
+	else
+		request_end(q);
+}
+
+/* A page: those that were tried again meanwhile stay. */
+static bool prune_page(struct request *q, const struct report *r)
+{
+	struct queue *jobs = queue_of(q);
+	int first = q->at_list, n = 0;
+	for (; q->at_list < q->n_list && n < PRUNE_PAGE; q->at_list++) {
+		int64_t id = q->list[q->at_list];
+		const struct Stats *s = queue_find(jobs, id);
+		if (!s || !job_state_table[s->state].over)
+			continue;
+		session_send_record(q->session, q->id, id, false);
+		q->list[first + n++] = id;
 	}
+	return queue_forget(jobs, q->list + first, n, r) == ST_OK;
+}
+
+static void prune_go_on(struct request *q)
+{
+	struct report r = request_report(q);
+	bool good = true;
+	while (good && q->at_list < q->n_list && session_backlog(q->session) < BACKLOG_FULL)
+		good = prune_page(q, &r);
+	if (good && q->at_list < q->n_list)
+		return;
+	prune_files(q->session->server->project, queue_of(q));
 	request_end(q);
 }
 
@@ -451,10 +543,26 @@ static bool request_met(struct request *q, const struct request_row *row)
 	return true;
 }
 
+/* Its list was sent, as far as it goes: is there nothing more to say? */
+static bool request_met_now(struct request *q, const struct request_row *row)
+{
+	const char *fault = queue_fault(queue_of(q));
+	if (fault && row->event != N_JOB_EVENTS) {
+		struct report r = request_report(q);
+		report_error(&r, ST_RESOURCE,
+		             "it is done or under way, but not kept: %s; make room, the "
+		             "service tries again each second",
+		             fault);
+		return true;
+	}
+	return !q->behind && request_met(q, row);
+}
+
 void request_check(struct request *q)
 {
 	const struct request_row *row = row_find(q->type);
-	const char *fault = queue_fault(queue_of(q));
+	if (q->type == MESSAGE_PRUNE && !q->ended)
+		prune_go_on(q);
 	if (q->ended || !row->wanted)
 		return;
 	if (q->type == MESSAGE_WATCH && q->behind && session_backlog(q->session) < BACKLOG_FULL / 2)
@@ -463,16 +571,11 @@ void request_check(struct request *q)
 		log_reader_more(q);
 		return;
 	}
-	if (fault && row->event != N_JOB_EVENTS) {
-		struct report r = request_report(q);
-		report_error(&r, ST_RESOURCE,
-		             "it is done or under way, but not kept: %s; make room, the "
-		             "service tries again each second",
-		             fault);
-	} else if (q->behind || !request_met(q, row)) {
-		return;
+	if (!q->met) {
+		q->met = request_met_now(q, row);
+		if (q->met && q->type != MESSAGE_WATCH)
+			list_begin(q);
 	}
-	if (q->type != MESSAGE_WATCH)
-		send_jobs(q);
-	request_end(q);
+	if (list_send(q) && q->met)
+		request_end(q);
 }

@@ -56,8 +56,12 @@ struct request {
 	int64_t *jobs; /* owned; sorted; NULL: see group */
 	int n, at;     /* all before `at` are as wanted */
 	char *group;   /* owned; with jobs NULL: of that group, or NULL: every job */
-	bool stay;     /* WATCH: goes on when all have ended */
-	bool behind;   /* WATCH: the client was too slow, it gets all again */
+	int64_t *list; /* owned; whose records are sent, as fast as the client takes them */
+	int n_list, at_list;
+	bool full;   /* LIST: records with all their fields */
+	bool met;    /* all are as wanted: when the list is sent it is answered */
+	bool stay;   /* WATCH: goes on when all have ended */
+	bool behind; /* WATCH: the client was too slow, it gets all again */
 	bool ended;
 	enum status st; /* to be said at the end */
 	char *error;    /* owned */
@@ -69,6 +73,8 @@ void session_accept(struct server *s);
 void session_close(struct session *c);
 void session_send(struct session *c, enum message_type type, json_t *body); /* body is stolen */
 void session_send_job(struct session *c, int64_t id, const struct Stats *s);
+/* Any job's; nothing where it is gone. full: see queue_write. */
+void session_send_record(struct session *c, int64_t id, int64_t job, bool full);
 void session_flush(struct session *c);
 size_t session_backlog(const struct session *c);
 

@@ -246,6 +246,7 @@ static void on_turn(uv_prepare_t *h)
 
 static struct queue_limits limits_from(const struct settings *s)
 {
+	enum { OVER_KEPT = 1000 };
 	int processors = parallel_processors();
 	int jobs = (int)settings_number(s, SETTING_JOBS);
 	const char *resume = s->value[SETTING_RESUME];
@@ -261,6 +262,7 @@ static struct queue_limits limits_from(const struct settings *s)
 		.resume = !strcmp(resume, "ask")     ? RESUME_ASK
 		          : !strcmp(resume, "never") ? RESUME_NEVER
 		                                     : RESUME_AUTO,
+		.over_kept = OVER_KEPT,
 		.jobs_elsewhere = (int)settings_number(s, SETTING_SLURM_JOBS),
 	};
 	l.jobs = jobs ? jobs : processors > JOBS_LEAST ? processors : JOBS_LEAST;

@@ -21,7 +21,8 @@
  *	         queued, or none.
  *	LIST     by default the jobs that have not ended and those that ended in the last hour.
  *	WATCH    JOB for each job named, then at each change, END when all named have ended. Without
- *	         jobs and group: every job, also later ones. stay: true: without end.
+ *	         jobs and group: every job that has not ended, the last 1,000 that have, and later
+ *	         ones. stay: true: without end.
  *	WAIT     END when all named have ended; a JOB for each before it.
  *	LOG      TEXT pieces of the log, END; with follow: goes on until the job has ended.
  *	KILL     END when the jobs have ended. by: who, in words, for the reason.

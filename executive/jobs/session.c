@@ -55,40 +55,66 @@ void session_send(struct session *c, enum message_type type, json_t *body)
 	json_decref(body);
 }
 
-/* {"id":ID,"job":{...}}; straight to text, for long lists. */
-static void job_text(struct text *t, int64_t id, const struct Stats *s)
+/* {"id":ID,"job":{...}} behind its header, straight to what is sent: long lists are. False, and nothing:
+ * too long for a packet, or there is no such job. */
+static bool packet_end(struct text *t, size_t begin, bool there)
 {
-	text_reset(t);
-	text_addf(t, "{\"id\":%lld,\"job\":", (long long)id);
-	stats_write_brief(t, s);
 	text_add(t, "}");
+	size_t n = t->n - begin - MESSAGE_HEADER;
+	if (t->failed)
+		return true;
+	if (!there || n > MESSAGE_TEXT_MAX) {
+		t->n = begin;
+		t->s[begin] = '\0';
+		return false;
+	}
+	for (int i = 0; i < 4; i++) {
+		t->s[begin + (size_t)i] = (char)((uint32_t)MESSAGE_JOB >> 8 * i);
+		t->s[begin + 4 + (size_t)i] = (char)((uint32_t)n >> 8 * i);
+	}
+	return true;
+}
+
+static size_t packet_begin(struct text *t, int64_t id)
+{
+	static const char header[MESSAGE_HEADER];
+	size_t begin = t->n;
+	text_add_bytes(t, header, sizeof header);
+	text_addf(t, "{\"id\":%lld,\"job\":", (long long)id);
+	return begin;
+}
+
+static bool send_stats(struct session *c, int64_t id, const struct Stats *s)
+{
+	size_t begin = packet_begin(&c->out, id);
+	stats_write_brief(&c->out, s);
+	return packet_end(&c->out, begin, true);
 }
 
 /* A record too long for a packet leaves out what the client can do without, last what it has made. */
 void session_send_job(struct session *c, int64_t id, const struct Stats *s)
 {
-	struct text t = { 0 };
 	struct Stats brief = *s;
-	unsigned char header[MESSAGE_HEADER];
-	job_text(&t, id, s);
-	if (t.n > MESSAGE_TEXT_MAX) {
-		brief.n_inputs = brief.n_after = brief.n_after_any = 0;
-		brief.parameters = NULL;
-		job_text(&t, id, &brief);
-	}
-	if (t.n > MESSAGE_TEXT_MAX) {
-		brief.n_outputs = 0;
-		job_text(&t, id, &brief);
-	}
-	for (int i = 0; i < 4; i++) {
-		header[i] = (unsigned char)((uint32_t)MESSAGE_JOB >> 8 * i);
-		header[4 + i] = (unsigned char)((uint32_t)t.n >> 8 * i);
-	}
-	if (!t.failed && t.n <= MESSAGE_TEXT_MAX) {
-		text_add_bytes(&c->out, header, sizeof header);
-		text_add_bytes(&c->out, t.s, t.n);
-	}
-	text_finish(&t);
+	if (send_stats(c, id, s))
+		return;
+	brief.n_inputs = brief.n_after = brief.n_after_any = 0;
+	brief.parameters = NULL;
+	if (send_stats(c, id, &brief))
+		return;
+	brief.n_outputs = 0;
+	send_stats(c, id, &brief);
+}
+
+void session_send_record(struct session *c, int64_t id, int64_t job, bool full)
+{
+	struct queue *q = c->server->queue;
+	size_t begin = packet_begin(&c->out, id);
+	bool there = queue_write(q, job, full, &c->out);
+	if (packet_end(&c->out, begin, there) || !there)
+		return;
+	const struct Stats *s = queue_find(q, job);
+	if (s)
+		session_send_job(c, id, s);
 }
 
 static void on_written(uv_write_t *w, int status)

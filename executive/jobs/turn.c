@@ -106,6 +106,7 @@ void queue_turn(struct queue *q)
 			          changes_write(q) == ST_OK;
 		changes_tell(q, written);
 	} while (failed && written);
+	archive_let_go(q);
 }
 
 double queue_deadline(const struct queue *q)
@@ -247,16 +248,6 @@ int queue_count(const struct queue *q)
 const struct Stats *queue_at(struct queue *q, int i)
 {
 	struct job *job = q->jobs[i];
-	job_times(job);
-	line_reason(job);
-	return &job->stats;
-}
-
-const struct Stats *queue_find(struct queue *q, int64_t id)
-{
-	struct job *job = queue_job(q, id);
-	if (!job)
-		return NULL;
 	job_times(job);
 	line_reason(job);
 	return &job->stats;

@@ -9,6 +9,28 @@
 
 #include "server.h"
 
+static enum status find_none(void *data, int64_t id, ledger_job *each, void *each_data,
+                             const struct report *r)
+{
+	(void)data, (void)id, (void)each, (void)each_data, (void)r;
+	return ST_OK;
+}
+
+static bool text_none(void *data, int64_t id, struct text *out)
+{
+	(void)data, (void)id, (void)out;
+	return false;
+}
+
+static enum status choose_none(void *data, const struct ledger_choice *choice, int64_t **ids,
+                               size_t *n, const struct report *r)
+{
+	(void)data, (void)choice, (void)r;
+	*ids = NULL;
+	*n = 0;
+	return ST_OK;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n);
 
 static enum status check(void *data, const struct Stats *s, const struct report *r)
@@ -178,7 +200,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n)
 	struct server s = { .project = &project,
 		            .clock = { .elapsed = clock_now, .date = clock_now } };
 	struct session c = { .server = &s };
-	struct ledger ledger = { .write = write_nothing, .hold = hold, .load = load };
+	struct ledger ledger = { .write = write_nothing,
+		                 .hold = hold,
+		                 .load = load,
+		                 .find = find_none,
+		                 .text = text_none,
+		                 .choose = choose_none };
 	struct queue_ports ports = { .launcher = &launcher,
 		                     .ledger = &ledger,
 		                     .clock = &s.clock,

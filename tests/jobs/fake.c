@@ -100,20 +100,73 @@ static enum status fake_hold(void *data, bool held, const struct report *r)
 	return ST_OK;
 }
 
+static bool is_over(const struct fake *f, int64_t id)
+{
+	return job_state_table[job_state_from_word(json_text(f->rows[id].record, "state", NULL))]
+	        .over;
+}
+
+static enum status fake_find(void *data, int64_t id, ledger_job *each, void *each_data,
+                             const struct report *r)
+{
+	struct fake *f = data;
+	struct Stats s;
+	(void)r;
+	if (id < 1 || id >= FAKE_ROWS || !f->rows[id].record)
+		return ST_OK;
+	assert_int_equal(stats_from_json(&s, f->rows[id].record), ST_OK);
+	assert_int_equal(each(each_data, &s, f->rows[id].front, f->rows[id].killed), ST_OK);
+	return ST_OK;
+}
+
 static enum status fake_load(void *data, ledger_job *each, void *each_data, int64_t *last,
                              bool *held, const struct report *r)
 {
 	struct fake *f = data;
 	(void)r;
-	for (int64_t id = 1; id < FAKE_ROWS; id++) {
-		struct Stats s;
-		if (!f->rows[id].record)
-			continue;
-		assert_int_equal(stats_from_json(&s, f->rows[id].record), ST_OK);
-		assert_int_equal(each(each_data, &s, f->rows[id].front, f->rows[id].killed), ST_OK);
-	}
+	for (int64_t id = 1; id < FAKE_ROWS; id++)
+		if (f->rows[id].record && !is_over(f, id))
+			fake_find(f, id, each, each_data, r);
 	*last = f->last;
 	*held = f->held;
+	return ST_OK;
+}
+
+static bool fake_text(void *data, int64_t id, struct text *out)
+{
+	struct fake *f = data;
+	if (id < 1 || id >= FAKE_ROWS || !f->rows[id].record)
+		return false;
+	char *s = json_write(f->rows[id].record, false);
+	text_add(out, s);
+	free(s);
+	return true;
+}
+
+static enum status fake_choose(void *data, const struct ledger_choice *c, int64_t **ids, size_t *n,
+                               const struct report *r)
+{
+	struct fake *f = data;
+	(void)r;
+	*n = 0;
+	*ids = calloc(FAKE_ROWS, sizeof **ids);
+	assert_non_null(*ids);
+	/* ids rise as their ends do */
+	for (int64_t id = FAKE_ROWS - 1; id > 0; id--) {
+		const json_t *o = f->rows[id].record;
+		const char *group = json_text(o, "group", NULL);
+		unsigned state = 1U << job_state_from_word(json_text(o, "state", NULL));
+		if (o && is_over(f, id) && json_number(o, "ended", 0) >= c->since &&
+		    (!c->states || c->states & state) &&
+		    (!c->group || (group && !strcmp(group, c->group))) &&
+		    (!c->newest || *n < (size_t)c->newest))
+			(*ids)[(*n)++] = id;
+	}
+	for (size_t i = 0; i < *n / 2; i++) {
+		int64_t id = (*ids)[i];
+		(*ids)[i] = (*ids)[*n - 1 - i];
+		(*ids)[*n - 1 - i] = id;
+	}
 	return ST_OK;
 }
 
@@ -183,12 +236,19 @@ void fake_init(struct fake *f)
 		              .note = fake_note,
 		              .job_file = fake_job_file,
 		              .forget = fake_forget },
-		.ledger = { .data = f, .write = fake_write, .hold = fake_hold, .load = fake_load },
+		.ledger = { .data = f,
+		            .write = fake_write,
+		            .hold = fake_hold,
+		            .load = fake_load,
+		            .find = fake_find,
+		            .text = fake_text,
+		            .choose = fake_choose },
 		.clock = { .data = f, .elapsed = fake_elapsed, .date = fake_date },
 		.limits = { .jobs = 2,
 		            .threads = 4,
 		            .memory_mib = 1000,
 		            .job_threads = 1,
+		            .over_kept = 1,
 		            .cancel_grace = 2,
 		            .term_grace = 3,
 		            .hello_grace = 10,

@@ -201,7 +201,7 @@ static void damage_costs_no_more_than_it_must(void **state)
 	sqlite3 *db;
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	for (int64_t id = 1; id <= 400; id++)
-		assert_int_equal(put(&l, id, JOB_DONE, false), ST_OK);
+		assert_int_equal(put(&l, id, JOB_HELD, false), ST_OK);
 	ledger_close(&l);
 	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
 	assert_int_equal(
@@ -213,7 +213,7 @@ static void damage_costs_no_more_than_it_must(void **state)
 	assert_int_equal(f.n, 400);
 	assert_int_equal(f.ids[6], 7);
 	assert_int_equal(f.states[6], JOB_LOST);
-	assert_int_equal(f.states[7], JOB_DONE);
+	assert_int_equal(f.states[7], JOB_HELD);
 	ledger_close(&l);
 
 	FILE *file = fopen(path, "r+");
@@ -285,6 +285,138 @@ static void a_ledger_that_may_not_be_written_says_so(void **state)
 	free(path);
 }
 
+/* Records of four groups and of every end, a tenth of a second apart. */
+static void fill(struct ledger *l, int n)
+{
+	static const enum job_state states[] = { JOB_DONE, JOB_FAILED, JOB_KILLED, JOB_LOST,
+		                                 JOB_QUEUED };
+	for (int i = 0; i < n; i++) {
+		char group[] = "g0";
+		struct Stats s;
+		stats_init(&s);
+		s.id = i + 1;
+		s.state = states[i % 5];
+		s.ended = s.state == JOB_QUEUED ? 0 : 1000 + i / 10.0;
+		group[1] = (char)('0' + i % 4);
+		s.group = i % 4 ? group : NULL;
+		struct ledger_change c = { .id = s.id, .stats = &s };
+		assert_int_equal(l->write(l->data, &c, 1, false, NULL), ST_OK);
+	}
+}
+
+static void check_choices(struct ledger *l, int n)
+{
+	static const struct ledger_choice choices[] = {
+		{ 0 },
+		{ .since = 1010 },
+		{ .states = 1U << JOB_FAILED | 1U << JOB_LOST },
+		{ .group = "g3" },
+		{ .group = "g0" },
+		{ .group = "it's none" },
+		{ .group = "g1", .since = 1010, .states = 1U << JOB_DONE },
+		{ .newest = 7 },
+		{ .group = "g2", .newest = 3, .states = 1U << JOB_KILLED },
+	};
+	for (size_t k = 0; k < sizeof choices / sizeof *choices; k++) {
+		const struct ledger_choice *c = &choices[k];
+		int64_t *ids = NULL, want[1000];
+		size_t n_ids, n_want = 0;
+		for (int i = n - 1; i >= 0; i--) {
+			static const enum job_state states[] = { JOB_DONE, JOB_FAILED, JOB_KILLED,
+				                                 JOB_LOST };
+			bool over = i % 5 < 4;
+			if (!over || 1000 + i / 10.0 < c->since ||
+			    (c->states && !(c->states & 1U << states[i % 5])) ||
+			    (c->group && (!(i % 4) || c->group[1] != '0' + i % 4)) ||
+			    (c->newest && n_want == (size_t)c->newest))
+				continue;
+			want[n_want++] = i + 1;
+		}
+		assert_int_equal(l->choose(l->data, c, &ids, &n_ids, NULL), ST_OK);
+		assert_int_equal(n_ids, n_want);
+		for (size_t i = 0; i < n_ids; i++)
+			assert_int_equal(ids[i], want[n_want - 1 - i]);
+		free(ids);
+	}
+}
+
+static void what_is_over_is_found_when_it_is_looked_for(void **state)
+{
+	char *path = path_join(*state, "jobs.db");
+	struct ledger l;
+	struct found f = { 0 };
+	struct text t = { 0 };
+	int64_t last;
+	bool held;
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	fill(&l, 500);
+	check_choices(&l, 500);
+	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
+	assert_int_equal(f.n, 100);
+	assert_int_equal(last, 500);
+	f.n = 0;
+	assert_int_equal(l.find(l.data, 2, find, &f, NULL), ST_OK);
+	assert_int_equal(l.find(l.data, 501, find, &f, NULL), ST_OK);
+	assert_int_equal(f.n, 1);
+	assert_int_equal(f.states[0], JOB_FAILED);
+	assert_true(l.text(l.data, 2, &t));
+	json_t *o = json_loads(t.s, 0, NULL);
+	assert_string_equal(json_string_value(json_object_get(o, "state")), "failed");
+	assert_false(l.text(l.data, 501, &t));
+	json_decref(o);
+	text_finish(&t);
+	ledger_close(&l);
+	free(path);
+}
+
+/* As version 1 wrote it; one record is damaged. */
+static void a_ledger_of_before_is_taken_over(void **state)
+{
+	char *path = path_join(*state, "jobs.db");
+	struct ledger l;
+	struct found f = { 0 };
+	struct text t = { 0 };
+	int64_t last, *ids;
+	size_t n;
+	bool held;
+	sqlite3 *db;
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	fill(&l, 500);
+	ledger_close(&l);
+	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+	assert_int_equal(sqlite3_exec(db,
+	                              "DROP INDEX live; DROP INDEX over; DROP INDEX grouped;"
+	                              "ALTER TABLE jobs DROP COLUMN ended;"
+	                              "ALTER TABLE jobs DROP COLUMN grp;"
+	                              "PRAGMA user_version=1",
+	                              NULL, NULL, NULL),
+	                 SQLITE_OK);
+	sqlite3_close(db);
+	for (int turn = 0; turn < 2; turn++) {
+		assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+		check_choices(&l, 500);
+		ledger_close(&l);
+	}
+	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+	assert_int_equal(
+	        sqlite3_exec(db, "UPDATE jobs SET record='{\"id\":' WHERE id=6", NULL, NULL, NULL),
+	        SQLITE_OK);
+	sqlite3_close(db);
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	assert_int_equal(l.choose(l.data, &(struct ledger_choice){ 0 }, &ids, &n, NULL), ST_OK);
+	assert_int_equal(n, 400);
+	assert_false(l.text(l.data, 6, &t));
+	assert_int_equal(l.find(l.data, 6, find, &f, NULL), ST_OK);
+	assert_int_equal(f.states[0], JOB_LOST);
+	f.n = 0;
+	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
+	assert_int_equal(f.n, 100);
+	free(ids);
+	text_finish(&t);
+	ledger_close(&l);
+	free(path);
+}
+
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
 int main(void)
@@ -295,6 +427,8 @@ int main(void)
 		T(a_batch_is_written_whole_or_not_at_all),
 		T(what_is_no_ledger_is_refused),
 		T(damage_costs_no_more_than_it_must),
+		T(what_is_over_is_found_when_it_is_looked_for),
+		T(a_ledger_of_before_is_taken_over),
 		T(whether_the_queue_is_held_is_kept),
 		T(a_ledger_that_may_not_be_written_says_so),
 	};

@@ -375,6 +375,44 @@ static void a_job_is_among_the_changed_once(void **state)
 
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
+/* fake_init lets one or two stay in memory. */
+static void what_is_over_leaves_memory_but_not_what_is_waited_for(void **state)
+{
+	struct fake *f = *state;
+	int64_t bad = fake_submit(f, 0, 1, 0), good = fake_submit(f, 0, 1, 0);
+	assert_int_equal(fake_event(f, bad, EV_KILL), ST_OK);
+	fake_exit(f, bad, 0, 15);
+	fake_eof(f, bad);
+	fake_success(f, good);
+	assert_int_equal(queue_hold(f->q, true, NULL), ST_OK);
+	int64_t waits = fake_submit_after_any(f, bad), last = 0;
+	assert_int_equal(queue_hold(f->q, false, NULL), ST_OK);
+	for (int i = 0; i < 10; i++) {
+		last = fake_submit(f, 0, 1, 0);
+		fake_success(f, last);
+		assert_in_range(queue_count(f->q), 1, 4);
+	}
+	assert_true(queue_holds(f->q, bad) && queue_holds(f->q, waits));
+	assert_false(queue_holds(f->q, good));
+	for (int64_t id = 1; id <= last; id++)
+		assert_int_equal(queue_find(f->q, id)->id, id);
+	assert_int_equal(fake_state(f, good), JOB_DONE);
+	/* comes back when it is waited for, or tried again */
+	int64_t after = fake_submit(f, 0, 1, good);
+	assert_int_equal(fake_state(f, after), JOB_STARTING);
+	fake_success(f, after);
+	fake_restart(f);
+	assert_true(queue_holds(f->q, bad) && queue_holds(f->q, waits));
+	assert_int_equal(fake_event(f, bad, EV_RETRY), ST_OK);
+	assert_int_equal(fake_state(f, bad), JOB_STARTING);
+	fake_success(f, bad);
+	/* the ledger forgets what is only there, too */
+	assert_false(queue_holds(f->q, good));
+	assert_int_equal(queue_forget(f->q, &good, 1, NULL), ST_OK);
+	assert_false(queue_has(f->q, good));
+	assert_string_equal(fake_row(f, good), "");
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -394,6 +432,7 @@ int main(void)
 		T(forgets_only_what_has_ended),
 		T(a_batch_is_queued_whole_or_not_at_all),
 		T(a_job_is_among_the_changed_once),
+		T(what_is_over_leaves_memory_but_not_what_is_waited_for),
 	};
 	return cmocka_run_group_tests_name("queue", tests, NULL, NULL);
 }
