@@ -2,15 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "color_image.h"
 #include "environment.h"
-
-enum channel { R, G, B, A, Z, NX, NY, NZ, PX, PY, PZ, N_CHANNELS };
-
-static const struct exr_channel raytrace_channels[N_CHANNELS] = {
-	{ "R", true },    { "G", true },    { "B", true },    { "A", true },
-	{ "Z", false },   { "N.X", false }, { "N.Y", false }, { "N.Z", false },
-	{ "P.X", false }, { "P.Y", false }, { "P.Z", false },
-};
 
 /* clang-format off */
 static const struct param raytrace_params[] = {
@@ -88,9 +81,9 @@ static enum status raytrace_begin(struct work *w)
 		return ST_RESOURCE;
 	w->state = s;
 	work_size(w, "size", &width, &height);
-	enum status st =
-	        image_init(&s->image, w, work_has(w, "view") ? work_text(w, "view") : NULL, width,
-	                   height, (int)work_integer(w, "samples"), raytrace_channels, N_CHANNELS);
+	enum status st = image_init(&s->image, w, work_has(w, "view") ? work_text(w, "view") : NULL,
+	                            width, height, (int)work_integer(w, "samples"), color_channels,
+	                            N_COLOR_CHANNELS);
 	if (st == ST_OK)
 		st = look_init(&s->look, w, &s->image.camera);
 	if (st == ST_OK)
@@ -220,27 +213,12 @@ static void wave_begin(const struct raytrace *s, struct wave *v, struct image_ti
 
 	v->n = 0;
 	for (size_t i = 0; i < t->n; i++) {
-		const struct ray_hit *h = &t->hits[i];
-		uint32_t p = t->pixel[i];
-
-		if (center)
-			t->planes[Z][p] = INFINITY;
-		if (h->surface < 0)
+		if (!color_place(t, i, center, share))
 			continue;
 		v->rays[v->n] = t->rays[i];
-		v->hits[v->n] = *h;
-		v->pixel[v->n] = p;
+		v->hits[v->n] = t->hits[i];
+		v->pixel[v->n] = t->pixel[i];
 		v->weight[v->n++] = (struct tint){ share, share, share };
-		t->planes[A][p] += share;
-		if (!center)
-			continue;
-		t->planes[Z][p] = (float)image_depth(&s->image, h->point);
-		t->planes[NX][p] = (float)h->normal.x;
-		t->planes[NY][p] = (float)h->normal.y;
-		t->planes[NZ][p] = (float)h->normal.z;
-		t->planes[PX][p] = (float)h->point.x;
-		t->planes[PY][p] = (float)h->point.y;
-		t->planes[PZ][p] = (float)h->point.z;
 	}
 }
 
@@ -277,19 +255,14 @@ static enum status raytrace_unit(struct work *w, size_t unit)
 static enum status raytrace_finish(struct work *w)
 {
 	const struct raytrace *s = w->state;
-	json_t *figures = NULL;
-	enum status st = image_gather(&s->image, w, &figures);
 
-	if (st == ST_OK)
-		st = image_output(&s->image, w, ".trace.exr",
-		                  work_flag(w, "png") ? ".trace.png" : NULL, figures);
-	return st;
+	return color_finish(&s->image, w, ".trace.exr", ".trace.png");
 }
 
 const struct worker worker = {
 	.name = "raytrace",
 	.title = "ray traced image",
-	.version = 2,
+	.version = 3,
 	.help = "The surfaces themselves ray traced, no triangles: shadows, mirrors, and light "
 	        "stripes that show where a surface is not fair.",
 	.scene = true,

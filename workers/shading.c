@@ -2,15 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "color_image.h"
 #include "look.h"
-
-enum channel { R, G, B, A, Z, NX, NY, NZ, PX, PY, PZ, N_CHANNELS };
-
-static const struct exr_channel shading_channels[N_CHANNELS] = {
-	{ "R", true },    { "G", true },    { "B", true },    { "A", true },
-	{ "Z", false },   { "N.X", false }, { "N.Y", false }, { "N.Z", false },
-	{ "P.X", false }, { "P.Y", false }, { "P.Z", false },
-};
 
 /* clang-format off */
 static const struct param shading_params[] = {
@@ -126,9 +119,9 @@ static enum status shading_begin(struct work *w)
 		return ST_RESOURCE;
 	w->state = s;
 	work_size(w, "size", &width, &height);
-	enum status st =
-	        image_init(&s->image, w, work_has(w, "view") ? work_text(w, "view") : NULL, width,
-	                   height, (int)work_integer(w, "samples"), shading_channels, N_CHANNELS);
+	enum status st = image_init(&s->image, w, work_has(w, "view") ? work_text(w, "view") : NULL,
+	                            width, height, (int)work_integer(w, "samples"), color_channels,
+	                            N_COLOR_CHANNELS);
 	if (st == ST_OK)
 		st = look_init(&s->look, w, &s->image.camera);
 	if (st == ST_OK)
@@ -247,9 +240,7 @@ static void shade_sample(const struct shading *s, const struct work *w, struct i
 		const struct ray_hit *h = &t->hits[i];
 		uint32_t p = t->pixel[i];
 
-		if (center)
-			t->planes[Z][p] = INFINITY;
-		if (h->surface < 0)
+		if (!color_place(t, i, center, share))
 			continue;
 
 		const struct ray *r = &t->rays[i];
@@ -261,16 +252,6 @@ static void shade_sample(const struct shading *s, const struct work *w, struct i
 		t->planes[R][p] += paper * c.r;
 		t->planes[G][p] += paper * c.g;
 		t->planes[B][p] += paper * c.b;
-		t->planes[A][p] += share;
-		if (!center)
-			continue;
-		t->planes[Z][p] = (float)image_depth(&s->image, h->point);
-		t->planes[NX][p] = (float)h->normal.x;
-		t->planes[NY][p] = (float)h->normal.y;
-		t->planes[NZ][p] = (float)h->normal.z;
-		t->planes[PX][p] = (float)h->point.x;
-		t->planes[PY][p] = (float)h->point.y;
-		t->planes[PZ][p] = (float)h->point.z;
 	}
 }
 
@@ -295,19 +276,14 @@ static enum status shading_unit(struct work *w, size_t unit)
 static enum status shading_finish(struct work *w)
 {
 	const struct shading *s = w->state;
-	json_t *figures = NULL;
-	enum status st = image_gather(&s->image, w, &figures);
 
-	if (st == ST_OK)
-		st = image_output(&s->image, w, ".shade.exr",
-		                  work_flag(w, "png") ? ".shade.png" : NULL, figures);
-	return st;
+	return color_finish(&s->image, w, ".shade.exr", ".shade.png");
 }
 
 const struct worker worker = {
 	.name = "shading",
 	.title = "shaded image",
-	.version = 2,
+	.version = 3,
 	.help = "The surfaces seen from a camera with one light: color, depth, exact normals and "
 	        "points of every pixel.",
 	.scene = true,

@@ -17,22 +17,27 @@ enum { FINISH_STEPS = 14 };
  * whether a leaf is asked about what lies beside it depends on what was found before. */
 #define CLAIM_BESIDE ((int64_t)1 << 32)
 
+/* The cubic Bernstein polynomials at t, a number or a vector of them, and their derivatives. */
+#define CUBIC_BASIS(t, b, d)                                                                       \
+	do {                                                                                       \
+		__typeof__(t) r_ = 1 - (t), rr_ = r_ * r_, tt_ = (t) * (t), rt_ = r_ * (t);        \
+		(b)[0] = rr_ * r_;                                                                 \
+		(b)[1] = 3 * rr_ * (t);                                                            \
+		(b)[2] = 3 * tt_ * r_;                                                             \
+		(b)[3] = tt_ * (t);                                                                \
+		(d)[0] = -3 * rr_;                                                                 \
+		(d)[1] = 3 * (rr_ - 2 * rt_);                                                      \
+		(d)[2] = 3 * (2 * rt_ - tt_);                                                      \
+		(d)[3] = 3 * tt_;                                                                  \
+	} while (0)
+
 /* Bernstein polynomials of degree order - 1 and their derivatives. */
 INLINE void finish_basis(int order, vd t, vd *b, vd *d)
 {
 	vd r = 1 - t;
 
 	if (order == 4) {
-		vd rr = r * r, tt = t * t, rt = r * t;
-
-		b[0] = rr * r;
-		b[1] = 3 * rr * t;
-		b[2] = 3 * tt * r;
-		b[3] = tt * t;
-		d[0] = -3 * rr;
-		d[1] = 3 * (rr - 2 * rt);
-		d[2] = 3 * (2 * rt - tt);
-		d[3] = 3 * tt;
+		CUBIC_BASIS(t, b, d);
 		return;
 	}
 	b[0] = filld(1);

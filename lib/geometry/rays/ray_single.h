@@ -43,22 +43,10 @@ struct single_point {
 
 INLINE void single_basis(int order, double t, double *b, double *d)
 {
-	double r = 1 - t;
-
-	if (order == 4) {
-		double rr = r * r, tt = t * t, rt = r * t;
-
-		b[0] = rr * r;
-		b[1] = 3 * rr * t;
-		b[2] = 3 * tt * r;
-		b[3] = tt * t;
-		d[0] = -3 * rr;
-		d[1] = 3 * (rr - 2 * rt);
-		d[2] = 3 * (2 * rt - tt);
-		d[3] = 3 * tt;
-		return;
-	}
-	bernstein(order, t, b, d);
+	if (order == 4)
+		CUBIC_BASIS(t, b, d);
+	else
+		bernstein(order, t, b, d);
 }
 
 INLINE void single_evaluate_(const double *points, int m, int n, bool rational, double a, double b,
