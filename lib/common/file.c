@@ -19,12 +19,43 @@ static enum status fail(const struct report *r, const char *what, const char *pa
 	                    strerror(error));
 }
 
-enum status file_read(const char *path, uint64_t max, char **out, size_t *n, const struct report *r)
+/* What a regular file needs in memory at once, not by doubling; without it text grows by itself. */
+static void make_room(struct text *t, int fd, uint64_t max)
+{
+	struct stat st;
+	if (fstat(fd, &st) < 0 || !S_ISREG(st.st_mode) || st.st_size <= 0 ||
+	    (uint64_t)st.st_size > max || (size_t)st.st_size < t->cap)
+		return;
+	char *s = realloc(t->s, (size_t)st.st_size + 1);
+	if (!s)
+		return;
+	t->s = s;
+	t->cap = (size_t)st.st_size + 1;
+}
+
+/* Append up to `most` bytes. Errors: the errno. */
+static int read_more(int fd, struct text *t, uint64_t most)
+{
+	char block[1 << 16];
+	while (most && !t->failed) {
+		ssize_t got = read(fd, block, most < sizeof block ? most : sizeof block);
+		if (got < 0 && errno == EINTR)
+			continue;
+		if (got < 0)
+			return errno;
+		if (got == 0)
+			return 0;
+		text_add_bytes(t, block, (size_t)got);
+		most -= (uint64_t)got;
+	}
+	return 0;
+}
+
+enum status file_read_wanted(const char *path, uint64_t max, size_t look, file_wanted *wanted,
+                             char **out, size_t *n, const struct report *r)
 {
 	struct stat st;
 	struct text t = { 0 };
-	char block[1 << 16];
-	ssize_t got;
 	int fd = open(path, O_RDONLY | O_CLOEXEC);
 
 	if (fd < 0)
@@ -33,34 +64,32 @@ enum status file_read(const char *path, uint64_t max, char **out, size_t *n, con
 		close(fd);
 		return fail(r, "read", path, EISDIR);
 	}
-	if (S_ISREG(st.st_mode) && st.st_size > 0 && (uint64_t)st.st_size <= max) {
-		t.s = malloc((size_t)st.st_size + 1); /* once, not by doubling */
-		t.cap = t.s ? (size_t)st.st_size + 1 : 0;
-	}
-	while ((got = read(fd, block, sizeof block)) != 0) {
-		if (got < 0 && errno == EINTR)
-			continue;
-		if (got < 0) {
-			int error = errno;
-			close(fd);
-			text_finish(&t);
-			return fail(r, "read", path, error);
-		}
-		text_add_bytes(&t, block, (size_t)got);
-		if (t.n > max) {
-			close(fd);
-			text_finish(&t);
-			return report_error(r, ST_RESOURCE,
-			                    "cannot read '%s': it is larger than %llu bytes", path,
-			                    (unsigned long long)max);
-		}
+	int error = read_more(fd, &t, look);
+	if (!error && !t.failed && (!wanted || wanted(t.s ? t.s : "", t.n))) {
+		make_room(&t, fd, max);
+		error = read_more(fd, &t, max - (t.n < max ? t.n : max) + 1);
 	}
 	close(fd);
+	if (error) {
+		text_finish(&t);
+		return fail(r, "read", path, error);
+	}
+	if (t.n > max) {
+		text_finish(&t);
+		return report_error(r, ST_RESOURCE,
+		                    "cannot read '%s': it is larger than %llu bytes", path,
+		                    (unsigned long long)max);
+	}
 	*n = t.n;
 	*out = text_take(&t);
 	if (!*out)
 		return report_error(r, ST_RESOURCE, "cannot read '%s': memory ran out", path);
 	return ST_OK;
+}
+
+enum status file_read(const char *path, uint64_t max, char **out, size_t *n, const struct report *r)
+{
+	return file_read_wanted(path, max, 0, NULL, out, n, r);
 }
 
 /* Its name is given through /proc. -1: not to be had here. */

@@ -2,6 +2,7 @@
 #ifndef BATTEN_FILE_H
 #define BATTEN_FILE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -14,6 +15,12 @@
  */
 enum status file_read(const char *path, uint64_t max, char **out, size_t *n,
                       const struct report *r);
+
+/* The same of files that begin as wanted: where the first `look` bytes (or all, if fewer) are not, *out
+ * holds those alone. */
+typedef bool file_wanted(const char *bytes, size_t n);
+enum status file_read_wanted(const char *path, uint64_t max, size_t look, file_wanted *wanted,
+                             char **out, size_t *n, const struct report *r);
 
 /*
  * A file on its way: written without a name on the same disk (where that cannot be, under a temporary

@@ -270,6 +270,11 @@ static enum status parse(struct model *m, const struct iges_bytes *bytes, const 
 		st = report_error(r, ST_RESOURCE,
 		                  "cannot read '%s': its disk or the memory gave out; try again",
 		                  name);
+	if (st == ST_OK && g.bytes.shorter)
+		st = report_error(r, ST_INPUT,
+		                  "cannot read '%s': it was cut short while it was read; copy it "
+		                  "again",
+		                  name);
 	if (st == ST_OK && m->n == 0)
 		st = say_nothing_read(&g);
 	if (st == ST_OK)

@@ -27,6 +27,7 @@ static bool load(struct iges_bytes *b, int i, size_t at)
 			break;
 		n += (size_t)k;
 	}
+	b->shorter |= n < want;
 	b->block[i].at = at;
 	b->block[i].n = n;
 	return true;

@@ -21,7 +21,8 @@ struct iges_bytes {
 		unsigned long used;
 	} block[BYTES_BLOCKS];
 	unsigned long tick;
-	bool failed; /* the disk or memory gave out: what was asked for read as nothing */
+	bool shorter; /* than when it was opened */
+	bool failed;  /* the disk or memory gave out: what was asked for read as nothing */
 };
 
 void iges_bytes_finish(struct iges_bytes *b);

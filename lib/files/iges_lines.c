@@ -213,6 +213,8 @@ enum status iges_index(struct iges *g)
 	}
 	g->n_d = g->d_lines.n;
 	g->n_p = g->p_lines.n;
+	if (!ended && g->bytes.failed)
+		return ST_RESOURCE; /* said by the caller */
 	if (!ended)
 		return report_error(
 		        g->r, ST_INPUT,

@@ -15,8 +15,11 @@
 #include "number.h"
 #include "path.h"
 
-/* Larger files are refused before they are read. Bytes. */
+/* Larger files are refused. Bytes. */
 static const uint64_t file_size_max = (uint64_t)1 << 40;
+
+/* What a file is shows in so many bytes. */
+enum { LOOK = 1 << 20 };
 
 enum status progress_step(const struct progress *p, double fraction)
 {
@@ -29,6 +32,14 @@ enum status progress_step(const struct progress *p, double fraction)
 	return ST_OK;
 }
 
+static bool has_changed(int fd, const struct stat *before)
+{
+	struct stat now;
+	return fstat(fd, &now) < 0 || now.st_size != before->st_size ||
+	       now.st_mtim.tv_sec != before->st_mtim.tv_sec ||
+	       now.st_mtim.tv_nsec != before->st_mtim.tv_nsec;
+}
+
 /* IGES files are large: they are read from the disk as they are needed. *is: it was one. */
 static enum status read_iges(struct model *m, const char *path, bool *is, const struct progress *p,
                              const struct report *r)
@@ -36,17 +47,31 @@ static enum status read_iges(struct model *m, const char *path, bool *is, const 
 	char head[4096];
 	struct stat file;
 	enum status st = ST_OK;
-	int fd = open(path, O_RDONLY | O_CLOEXEC);
 	*is = false;
-	if (fd >= 0 && !fstat(fd, &file) && S_ISREG(file.st_mode)) {
+	/* a pipe is opened once only: who writes to it would be left alone at the close */
+	if (stat(path, &file) || !S_ISREG(file.st_mode))
+		return ST_OK;
+	int fd = open(path, O_RDONLY | O_CLOEXEC);
+	if (fd >= 0 && !fstat(fd, &file)) {
 		ssize_t n = pread(fd, head, sizeof head, 0);
 		*is = n > 0 && !base_recognise(head, (size_t)n) && iges_recognise(head, (size_t)n);
 	}
 	if (*is)
 		st = iges_read(m, fd, (size_t)file.st_size, path, p, r);
+	if (*is && st == ST_OK && has_changed(fd, &file))
+		st = report_error(r, ST_INPUT,
+		                  "cannot read '%s': it was written to meanwhile; try again when "
+		                  "it is whole",
+		                  path);
 	if (fd >= 0)
 		close(fd);
 	return st;
+}
+
+static bool is_known(const char *bytes, size_t n)
+{
+	return base_recognise(bytes, n) || iges_recognise(bytes, n) || g2_recognise(bytes, n) ||
+	       csv_recognise(bytes, n);
 }
 
 static enum status read_whole(struct model *m, const char *path, const struct progress *p,
@@ -54,7 +79,7 @@ static enum status read_whole(struct model *m, const char *path, const struct pr
 {
 	char *bytes = NULL;
 	size_t n = 0;
-	enum status st = file_read(path, file_size_max, &bytes, &n, r);
+	enum status st = file_read_wanted(path, file_size_max, LOOK, is_known, &bytes, &n, r);
 	if (st != ST_OK)
 		return st;
 	if (n == 0)
