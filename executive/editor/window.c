@@ -4,7 +4,9 @@
 #include <X11/Xlib.h>
 #include <epoxy/glx.h>
 #include <locale.h>
+#include <malloc.h>
 #include <math.h>
+#include <pango/pangocairo.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -129,7 +131,7 @@ static int display_error(Display *d)
 	return 0;
 }
 
-static enum status open_glfw(struct window *w)
+static enum status open_display(struct window *w)
 {
 	const char *why = NULL;
 	bool display = getenv("DISPLAY") || getenv("WAYLAND_DISPLAY");
@@ -148,6 +150,13 @@ static enum status open_glfw(struct window *w)
 		                              "batten run, script and render need none",
 		                    why ? why : "no reason was given");
 	}
+	return ST_OK;
+}
+
+static enum status open_window(struct window *w)
+{
+	const char *why = NULL;
+
 	glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
 	glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
 	glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -210,28 +219,34 @@ static enum status make_desk(struct window *w)
 	};
 	const struct desk_house house = { w->world, &w->project, &w->menus, w->help, THEME_DARK };
 	struct report_store store;
-	enum status st = compose_create(&w->compose, &w->report);
 
-	if (st == ST_OK)
-		st = view_create(&w->view, &w->report);
-	if (st != ST_OK)
-		return st;
 	report_store_init(&store);
 	enum status session = world_restore_session(w->world, &store.report);
 	w->kept_revision = world_revision(w->world);
 	w->kept_at = now_s();
-	st = desk_create(&w->desk, &house, &ports);
+	enum status st = desk_create(&w->desk, &house, &ports);
 	if (st != ST_OK)
 		return report_error(&w->report, st, "memory ran out");
 	if (store.n_warnings)
 		desk_say(w->desk, REPORT_WARNING, "%s", store.warning);
 	if (session != ST_OK)
 		desk_say(w->desk, REPORT_WARNING, "%s", store.error);
+	desk_tick(w->desk, now_s());
+	return ST_OK;
+}
+
+static enum status make_views(struct window *w)
+{
+	enum status st = compose_create(&w->compose, &w->report);
+
+	if (st == ST_OK)
+		st = view_create(&w->view, &w->report);
+	if (st != ST_OK)
+		return st;
 	window_listen(w);
 	XSetIOErrorHandler(display_error);
 	if (glXGetCurrentDisplay())
 		XSetIOErrorExitHandler(glXGetCurrentDisplay(), display_gone, w);
-	desk_tick(w->desk, now_s());
 	window_measure(w);
 	return ST_OK;
 }
@@ -251,9 +266,9 @@ static void keep_session(struct window *w)
 
 static void finish(struct window *w)
 {
-	jobs_link_destroy(w->link);
-	if (w->desk)
+	if (w->link)
 		keep_session(w);
+	jobs_link_destroy(w->link);
 	desk_destroy(w->desk);
 	for (int i = 0; i < N_DESK_PARTS; i++)
 		if (w->glfw)
@@ -345,19 +360,27 @@ static void loop(struct window *w)
 
 int mode_window(int argc, char **argv)
 {
+	/* a software driver takes megabytes for each frame and gives them back: they stay with us */
+	mallopt(M_MMAP_THRESHOLD, 32 << 20);
+	mallopt(M_TRIM_THRESHOLD, 128 << 20);
 	struct window w = { .report = report_stderr("batten"), .link_state = LINK_CONNECTING };
-	enum status st = open_glfw(&w);
+	pango_cairo_font_map_get_default(); /* a thread of its own finds the fonts */
+	enum status st = open_display(&w);
 
 	if (st == ST_OK)
 		st = make_house(&w);
 	if (st == ST_OK)
 		st = make_desk(&w);
+	if (st == ST_OK) { /* files are read while the driver makes the window */
+		desk_open(w.desk, (const char *const *)argv, argc);
+		st = open_window(&w);
+	}
+	if (st == ST_OK)
+		st = make_views(&w);
 	if (st == ST_OK)
 		st = jobs_link_create(&w.link, &w.project, wake, &w, &w.report);
-	if (st == ST_OK) {
-		desk_open(w.desk, (const char *const *)argv, argc);
+	if (st == ST_OK)
 		loop(&w);
-	}
 	finish(&w);
 	return status_exit(st);
 }

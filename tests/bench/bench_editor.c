@@ -1,4 +1,5 @@
 /* bench_editor.c - what a frame costs while something is dragged, at rest, and what a pick costs. */
+#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -116,6 +117,8 @@ int main(void)
 	struct world *w = NULL;
 	struct view *v = NULL;
 	struct report r = report_stderr("bench-editor");
+	mallopt(M_MMAP_THRESHOLD, 32 << 20); /* as the window has it */
+	mallopt(M_TRIM_THRESHOLD, 128 << 20);
 	if (offscreen_create(&screen, &r) != ST_OK)
 		return 77;
 	if (view_create(&v, &r) != ST_OK || world_create(&w, "/") != ST_OK)

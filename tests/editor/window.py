@@ -8,6 +8,7 @@ import shutil
 import struct
 import subprocess
 import sys
+import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "end"))
 import end  # noqa: E402
@@ -19,7 +20,7 @@ ROW, ROW_HEIGHT, PANEL = 126, 28, 1100  # of a menu at 1280 x 800
 class Screen:
     """An X server, and the editor on it."""
 
-    def __init__(self, project, *files):
+    def __init__(self, project, *files, wait=True):
         for program in ("Xvfb", "xdotool"):
             if not shutil.which(program):
                 raise end.Skip(f"{program} is not installed")
@@ -35,8 +36,9 @@ class Screen:
             number = f.readline().strip()
         assert number, "Xvfb did not start"
         project.environment.update(DISPLAY=f":{number}", LIBGL_ALWAYS_SOFTWARE="1")
+        self.begun = time.monotonic()
         self.editor = project.start("batten", *files, stderr=subprocess.PIPE)
-        self.window = end.until(self.find, "a window").split()[0]
+        self.window = end.until(self.find, "a window").split()[0] if wait else None
 
     def find(self):
         assert self.editor.poll() is None, self.editor.stderr.read()

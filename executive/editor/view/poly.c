@@ -185,6 +185,15 @@ void poly_add_line(struct poly *p, const struct poly_line *line)
 		thin_out(p, first, line->tolerance);
 }
 
+void poly_thin(struct poly *out, const struct poly *p, double tolerance)
+{
+	poly_reset(out, p->origin);
+	for (int i = 0; i < p->n; i++)
+		append(out, p->v[i], p->t[i]);
+	if (!out->failed && out->n)
+		thin_out(out, 0, tolerance);
+}
+
 double *poly_breaks(const struct curve *c, int *n)
 {
 	double *breaks = malloc(((size_t)c->n + 2) * sizeof *breaks);

@@ -47,6 +47,9 @@ struct poly_line {
 };
 void poly_add_line(struct poly *p, const struct poly_line *line);
 
+/* The polylines of p with fewer points, none of those left out farther than tolerance. */
+void poly_thin(struct poly *out, const struct poly *p, double tolerance);
+
 /* A curve's breaks: fresh, n of them; NULL for want of memory. */
 double *poly_breaks(const struct curve *c, int *n);
 

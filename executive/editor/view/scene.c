@@ -9,6 +9,7 @@ enum {
 };
 static const double chord_px = 0.2;      /* of triangles from their surface, device px */
 static const double line_px = 0.1;       /* of chords from their curve */
+static const double moved_line_px = 0.6; /* while something is dragged */
 static const double coarse_chord = 1e-3; /* of the scene's size */
 static const double border_back = 2;     /* px, of borders behind their surface */
 static const double cut_seconds = 0.06;  /* a drawing may spend on triangles */
@@ -157,7 +158,10 @@ static void draw(struct drawing *d, int i, enum shape_lines which, struct gpu_st
 		style.dash[0] = line == LINE_DASHED ? 6 : 1.5;
 		style.dash[1] = line == LINE_DASHED ? 4 : 3;
 	}
-	gpu_draw_lines(&d->frame, &x->lines[which], &x->poly[which], &style);
+	if (d->state->moving && which < (int)N_MOVED_LINES)
+		gpu_draw_lines(&d->frame, &x->moved_lines[which], &x->moved_poly[which], &style);
+	else
+		gpu_draw_lines(&d->frame, &x->lines[which], &x->poly[which], &style);
 }
 
 static void draw_wires(struct drawing *d)
@@ -339,13 +343,14 @@ enum status scene_draw(struct drawing *d)
 	const double pixel = smallest_pixel(d);
 	enum status st = make_triangles(d, pixel);
 	for (int i = 0; i < d->n_shown && st == ST_OK; i++) {
+		struct shape *x = d->shown[i];
 		if (!d->in_view[i])
 			continue;
 		/* while moving the lines that there are do */
-		if (d->state->moving && d->shown[i]->tolerance > 0 &&
-		    d->shown[i]->tolerance < 8 * line_px * pixel)
-			continue;
-		st = shape_make_lines(d->shown[i], d->world, d->things[i], line_px * pixel);
+		if (!d->state->moving || !(x->tolerance > 0) || x->tolerance >= 8 * line_px * pixel)
+			st = shape_make_lines(x, d->world, d->things[i], line_px * pixel);
+		if (st == ST_OK && d->state->moving)
+			st = shape_make_moved_lines(x, moved_line_px * pixel);
 		if (st != ST_OK)
 			report_error(d->report, st, "cannot draw: memory ran out");
 	}

@@ -150,7 +150,7 @@ static const char line_vertex[] =
         "	bool joined_behind = behind.w >= 0.0 && y.w > 0.0 && b.w > 0.0;\n"
         "	bool last = gl_VertexID >= 2;\n"
         "	float side = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;\n"
-        "	float half_width = 0.5 * width + 1.0;\n"
+        "	float half_width = 0.5 * width + 0.5;\n"
         "	vec2 across = vec2(-d.y, d.x), offset;\n"
         "	bool joined = last ? joined_behind : joined_before;\n"
         "	capped = vec2(joined_before ? 0.0 : 1.0, joined_behind ? 0.0 : 1.0);\n"

@@ -30,6 +30,10 @@ static void shape_destroy(struct shape *x)
 		poly_finish(&x->poly[k]);
 		gpu_poly_finish(&x->lines[k]);
 	}
+	for (int k = 0; k < N_MOVED_LINES; k++) {
+		poly_finish(&x->moved_poly[k]);
+		gpu_poly_finish(&x->moved_lines[k]);
+	}
 	free(x);
 }
 
@@ -295,7 +299,24 @@ enum status shape_make_lines(struct shape *x, const struct world *w, const struc
 		gpu_poly_load(&x->lines[k], &x->poly[k]);
 	}
 	x->tolerance = tolerance;
+	x->moved_tolerance = 0;
 	x->made_for = f->display;
 	x->on_revision = on_revision;
+	return st;
+}
+
+enum status shape_make_moved_lines(struct shape *x, double tolerance)
+{
+	enum status st = ST_OK;
+	if (x->moved_tolerance > 0 && x->moved_tolerance <= 2 * tolerance &&
+	    x->moved_tolerance >= tolerance / 2)
+		return ST_OK;
+	for (int k = 0; k < N_MOVED_LINES; k++) {
+		poly_thin(&x->moved_poly[k], &x->poly[k], tolerance);
+		if (x->moved_poly[k].failed)
+			st = ST_RESOURCE;
+		gpu_poly_load(&x->moved_lines[k], &x->moved_poly[k]);
+	}
+	x->moved_tolerance = tolerance;
 	return st;
 }

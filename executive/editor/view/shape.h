@@ -17,7 +17,8 @@ enum shape_lines {
 	SHAPE_QUILLS, /* of the comb, where the curve bends to one side */
 	SHAPE_QUILLS_OTHER,
 	SHAPE_ENVELOPE, /* the line over the quills' ends */
-	N_SHAPE_LINES
+	N_SHAPE_LINES,
+	N_MOVED_LINES = SHAPE_CURVE + 1 /* those of which fewer chords do while it is moved */
 };
 
 /* Triangles, and how far they may be from the surface; 0: none yet. */
@@ -41,6 +42,10 @@ struct shape {
 	struct shape_mesh coarse, fine;
 	struct poly poly[N_SHAPE_LINES];
 	struct gpu_poly lines[N_SHAPE_LINES];
+	struct poly
+	        moved_poly[N_MOVED_LINES]; /* what is drawn of them while something is dragged */
+	struct gpu_poly moved_lines[N_MOVED_LINES];
+	double moved_tolerance;  /* of these; 0: none yet */
 	double tolerance;        /* of the lines; 0: none yet */
 	struct display made_for; /* what the lines were made for */
 	unsigned on_revision;    /* of the surface that the curve lies on */
@@ -60,6 +65,9 @@ struct shape *shapes_find(const struct shapes *s, int id); /* NULL: none */
 /* Lines within tolerance (file units), but not twice as good for nothing. Errors: ST_RESOURCE. */
 enum status shape_make_lines(struct shape *x, const struct world *w, const struct Ful *f,
                              double tolerance);
+
+/* Those lines with fewer chords, from what was made of them. Errors: ST_RESOURCE. */
+enum status shape_make_moved_lines(struct shape *x, double tolerance);
 
 /* Rays against the surface; NULL where it has none or memory ran out. */
 const struct ray_scene *shape_rays(struct shape *x);
