@@ -3,7 +3,7 @@
  * anything is in the way. `test-rays_sweep N`: N times as many surfaces. */
 #include "box.h"
 #include "cmocka_all.h"
-#include "ray_scene.h"
+#include "ray_shapes.h"
 #include "trim_shapes.h"
 
 enum { RAYS = 400, ORDER_LOW = 2, ORDER_HIGH = 8 };
@@ -17,23 +17,16 @@ struct sweep {
 	size_t n_hits, n_touching;
 };
 
-static struct vec3 any_direction(uint64_t *seed)
-{
-	double z = 2 * shape_random(seed) - 1, a = 2 * M_PI * shape_random(seed);
-	double r = sqrt(1 - z * z);
-	return vec3(r * cos(a), r * sin(a), z);
-}
-
 /* Through the box from without, close together or each its own way. */
 static void rays_from_without(struct sweep *s, bool together)
 {
 	const double size = box_diagonal(&s->box);
-	struct vec3 eye = vec3_along(box_center(&s->box), 2 * size, any_direction(&s->seed));
+	struct vec3 eye = vec3_along(box_center(&s->box), 2 * size, random_direction(&s->seed));
 	for (int i = 0; i < RAYS; i++) {
 		struct vec3 at = vec3_along(box_center(&s->box), size * shape_random(&s->seed) / 2,
-		                            any_direction(&s->seed));
+		                            random_direction(&s->seed));
 		if (!together)
-			eye = vec3_along(at, 2 * size, any_direction(&s->seed));
+			eye = vec3_along(at, 2 * size, random_direction(&s->seed));
 		s->rays[i] = (struct ray){ eye, vec3_unit(vec3_sub(at, eye)), 0, INFINITY };
 	}
 }
@@ -42,11 +35,11 @@ static void rays_from_without(struct sweep *s, bool together)
 static void rays_from_hits(struct sweep *s, bool together)
 {
 	const double size = box_diagonal(&s->box);
-	struct vec3 d = any_direction(&s->seed);
+	struct vec3 d = random_direction(&s->seed);
 	for (int i = 0; i < RAYS; i++) {
 		struct ray *r = &s->rays[i];
 		if (!together)
-			d = any_direction(&s->seed);
+			d = random_direction(&s->seed);
 		if (s->hits[i].surface >= 0)
 			r->origin = s->hits[i].point;
 		r->direction = d;

@@ -1,17 +1,10 @@
 /* test_rays_trimmed.c - rays against surfaces of which trims leave a part. */
 #include "box.h"
 #include "cmocka_all.h"
-#include "ray_scene.h"
+#include "ray_shapes.h"
 #include "trim_shapes.h"
 
 enum { RAYS = 20000 };
-
-static struct vec3 any_direction(uint64_t *seed)
-{
-	double z = 2 * shape_random(seed) - 1, a = 2 * M_PI * shape_random(seed);
-	double r = sqrt(1 - z * z);
-	return vec3(r * cos(a), r * sin(a), z);
-}
 
 /* Rays through a ball of that radius from far outside. */
 static struct ray *any_rays(double radius, uint64_t seed)
@@ -19,14 +12,14 @@ static struct ray *any_rays(double radius, uint64_t seed)
 	struct ray *rays = malloc(RAYS * sizeof *rays);
 	assert_non_null(rays);
 	for (int i = 0; i < RAYS; i++) {
-		struct vec3 at = vec3_scale(any_direction(&seed), radius * shape_random(&seed));
-		struct vec3 d = any_direction(&seed);
+		struct vec3 at = vec3_scale(random_direction(&seed), radius * shape_random(&seed));
+		struct vec3 d = random_direction(&seed);
 		rays[i] = (struct ray){ vec3_along(at, -10 * radius, d), d, 0, INFINITY };
 	}
 	return rays;
 }
 
-static struct ray_scene *scene_of(const struct surface *s, const struct trim *t)
+static struct ray_scene *trimmed_scene(const struct surface *s, const struct trim *t)
 {
 	struct ray_scene *scene;
 	assert_int_equal(ray_scene_create_trimmed(&scene, &s, &t, 1, 0, NULL), ST_OK);
@@ -71,7 +64,7 @@ static void hits_are_the_first_that_are_left(void **state)
 			                 0.08 + 0.01 * (i % 4), 0.1 - 0.01 * (i % 5), 0.2 * i);
 		struct trim_test *x;
 		assert_int_equal(trim_test_create(&x, &t, &s), ST_OK);
-		struct ray_scene *whole = scene_of(&s, NULL), *left = scene_of(&s, &t);
+		struct ray_scene *whole = trimmed_scene(&s, NULL), *left = trimmed_scene(&s, &t);
 		struct box box = ray_scene_box(whole);
 		struct ray *rays = any_rays(box_diagonal(&box) / 3, 17 + k);
 		struct ray_hit *hits = malloc(RAYS * sizeof *hits);
@@ -122,7 +115,7 @@ static void a_cap_of_a_sphere(void **state)
 	double v = 0.7, z = surface_point(&s, 0, v).z, edge = sqrt(1 - z * z);
 	(void)state;
 	trim_add_box(&t, true, 0, v, 1, 1);
-	struct ray_scene *scene = scene_of(&s, &t);
+	struct ray_scene *scene = trimmed_scene(&s, &t);
 	struct box box = ray_scene_box(scene);
 	/* the scene is no larger than what is left, but for the nets of its leaves */
 	assert_true(box.lo.z > z - 0.1 && box.hi.x < edge + 0.1 && box.lo.y > -edge - 0.1);
@@ -149,7 +142,7 @@ static void a_small_face_on_a_large_plane(void **state)
 	struct trim t = { 0 };
 	(void)state;
 	trim_add_box(&t, true, 0.5, 0.5, 0.5 + 1e-6, 0.5 + 1e-6);
-	struct ray_scene *scene = scene_of(&s, &t);
+	struct ray_scene *scene = trimmed_scene(&s, &t);
 	for (int i = -20; i < 120; i++)
 		for (int j = -20; j < 120; j++) {
 			double x = (i + 0.5) / 100, y = (j + 0.5) / 100;
