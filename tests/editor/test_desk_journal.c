@@ -299,7 +299,8 @@ static void write_trimmed(const char *folder)
 	assert_int_equal(model_add(&m, &e), ST_OK);
 	model_number(&m);
 	char *path = path_join(folder, "trimmed.igs");
-	assert_int_equal(model_write(&m, model_format_find(path, NULL), path, 0, 15,
+	assert_int_equal(model_write(&m, model_format_find(path, NULL), path,
+	                             &(struct mesh_wishes){ .angle = 15 },
 	                             &(struct mesh_figures){ 0 }, NULL),
 	                 ST_OK);
 	free(path);
