@@ -33,12 +33,13 @@ static void make_room(struct text *t, int fd, uint64_t max)
 	t->cap = (size_t)st.st_size + 1;
 }
 
-/* Append up to `most` bytes. Errors: the errno. */
-static int read_more(int fd, struct text *t, uint64_t most)
+/* Append until there are n bytes, or all. Errors: the errno. */
+static int read_up_to(int fd, struct text *t, uint64_t n)
 {
 	char block[1 << 16];
-	while (most && !t->failed) {
-		ssize_t got = read(fd, block, most < sizeof block ? most : sizeof block);
+	while (t->n < n && !t->failed) {
+		const uint64_t left = n - t->n;
+		ssize_t got = read(fd, block, left < sizeof block ? left : sizeof block);
 		if (got < 0 && errno == EINTR)
 			continue;
 		if (got < 0)
@@ -46,7 +47,6 @@ static int read_more(int fd, struct text *t, uint64_t most)
 		if (got == 0)
 			return 0;
 		text_add_bytes(t, block, (size_t)got);
-		most -= (uint64_t)got;
 	}
 	return 0;
 }
@@ -64,10 +64,10 @@ enum status file_read_wanted(const char *path, uint64_t max, size_t look, file_w
 		close(fd);
 		return fail(r, "read", path, EISDIR);
 	}
-	int error = read_more(fd, &t, look);
+	int error = read_up_to(fd, &t, look);
 	if (!error && !t.failed && (!wanted || wanted(t.s ? t.s : "", t.n))) {
 		make_room(&t, fd, max);
-		error = read_more(fd, &t, max - (t.n < max ? t.n : max) + 1);
+		error = read_up_to(fd, &t, max < UINT64_MAX ? max + 1 : max);
 	}
 	close(fd);
 	if (error) {
