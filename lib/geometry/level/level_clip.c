@@ -148,18 +148,44 @@ static double near_until(const struct clipper *c, double t, double step)
 	return t;
 }
 
-static bool runs_along(const struct clipper *c, const struct stretch *s)
+/* Between a place on the run and its end: where the branch leaves the trims by more than `most`. */
+static double run_end(const struct clipper *c, double on, double end, double most)
+{
+	if (nearness(c, end) <= most)
+		return end;
+	for (int k = 0; k < BISECTIONS; k++) {
+		const double middle = 0.5 * (on + end);
+		if (nearness(c, middle) <= most)
+			on = middle;
+		else
+			end = middle;
+	}
+	return on;
+}
+
+/* Is it more than a touch? Then it ends where it leaves the trims: in their corners. */
+static bool runs_along(const struct clipper *c, struct stretch *s)
 {
 	int n = 0;
+	double off = 0;
 	/* the parameter is about the length */
 	const double length = larger(s->t[1] - s->t[0], c->tolerance);
 	const double from = near_until(c, s->t[0], -length / 4);
 	const double to = near_until(c, s->t[1], length / 4);
 	if (s->t[1] - s->t[0] < SHORT * c->tolerance)
 		return false;
-	for (int i = 0; i < SAMPLES; i++)
-		n += nearness(c, from + (to - from) * (i + 0.5) / SAMPLES) <= along_near;
-	return n >= along_part * SAMPLES;
+	for (int i = 0; i < SAMPLES; i++) {
+		const double x = nearness(c, from + (to - from) * (i + 0.5) / SAMPLES);
+		n += x <= along_near;
+		if (i >= SAMPLES / 4 && i < SAMPLES - SAMPLES / 4)
+			off = larger(off, x);
+	}
+	if (n < along_part * SAMPLES)
+		return false;
+	const double middle = 0.5 * (from + to), most = larger(2 * off, 1e-6);
+	s->t[0] = run_end(c, middle, s->t[0], most);
+	s->t[1] = run_end(c, middle, s->t[1], most);
+	return true;
 }
 
 /* The stretch before (step -1) or after i whose state is known; NULL: there is none. */
