@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "place.h"
+#include "bench.h"
 #include "file.h"
 #include "ledger.h"
 #include "path.h"
@@ -18,23 +19,14 @@
 enum { JOBS = 1000, LIST = 10000, RUNS = 31, PACKETS = 400000, WRITES = 300, CLIENTS = 100 };
 enum { ENDED = 100000, ROUNDS = 5 };
 
-static double now(void)
+static void row(const char *what, const char *unit, double value, double target, bool less)
 {
-	struct timespec t;
-	clock_gettime(CLOCK_MONOTONIC, &t);
-	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int compare(const void *a, const void *b)
-{
-	const double x = *(const double *)a, y = *(const double *)b;
-	return (x > y) - (x < y);
-}
-
-static double median(double *x, int n)
-{
-	qsort(x, (size_t)n, sizeof *x, compare);
-	return x[n / 2];
+	bench_print(&(struct bench_row){ .row = "jobs",
+	                                 .what = what,
+	                                 .unit = unit,
+	                                 .ours = value,
+	                                 .target = target,
+	                                 .less = less });
 }
 
 /* User and system time of a process so far. */
@@ -70,18 +62,23 @@ static void thousand_jobs(void)
 {
 	struct place p;
 	place_init(&p, "BATTEN_JOBS=2 BATTEN_NICE=0");
-	double began = now();
+	double began = bench_wall();
 	submit_many(&p, "nothing", JOBS);
 	client_request(p.client, MESSAGE_WAIT, json_pack("{s:s}", "group", "many"), NULL, NULL,
 	               NULL, NULL);
-	double ours = now() - began;
+	double ours = bench_wall() - began;
 	if (place_job(&p, JOBS)->state != JOB_DONE)
 		exit(1);
-	began = now();
+	began = bench_wall();
 	int rc = system("seq 1000 | xargs -P2 -n1 true");
-	double theirs = now() - began;
-	printf("1000 jobs that do nothing, two at a time: %.2f s, xargs -P2 %.2f s, ratio %.2f%s\n",
-	       ours, theirs, ours / theirs, rc ? " (xargs failed)" : "");
+	double theirs = bench_wall() - began;
+	bench_print(&(struct bench_row){ .row = "jobs",
+	                                 .what = "1000 jobs that do nothing, two at a time",
+	                                 .unit = "s",
+	                                 .ours = ours,
+	                                 .target = rc ? 0 : 3 * theirs,
+	                                 .less = true,
+	                                 .peer = { { rc ? NULL : "xargs -P2", theirs } } });
 	place_finish(&p);
 }
 
@@ -91,20 +88,20 @@ static void submit_to_hello(void)
 	double t[RUNS], start[RUNS];
 	place_init(&p, "BATTEN_JOBS=4 BATTEN_NICE=0");
 	for (int i = 0; i < RUNS; i++) {
-		t[i] = now();
+		t[i] = bench_wall();
 		int64_t id = place_submit(&p, "stubborn", 0, NULL);
 		place_until(&p, id, JOB_RUNNING);
-		t[i] = now() - t[i];
+		t[i] = bench_wall() - t[i];
 		place_crash(&p);
-		start[i] = now();
+		start[i] = bench_wall();
 		place_connect(&p);
-		start[i] = now() - start[i];
+		start[i] = bench_wall() - start[i];
 		kill(place_job(&p, id)->pid, SIGKILL);
 		place_end(&p, id);
 	}
-	double up = median(t, RUNS);
-	printf("submit to HELLO: %.1f ms, service started for it: %.1f ms more\n", up * 1e3,
-	       median(start, RUNS) * 1e3);
+	double up = bench_median(t, RUNS) * 1e3, more = bench_median(start, RUNS) * 1e3;
+	row("submit to HELLO", "ms", up, 10, true);
+	row("the same where the service must start", "ms", up + more, 60, true);
 	place_finish(&p);
 }
 
@@ -116,15 +113,15 @@ static void suspend_and_activate(void)
 	int64_t id = place_submit(&p, "stubborn", 0, NULL);
 	place_until(&p, id, JOB_RUNNING);
 	for (int i = 0; i < RUNS; i++) {
-		t[i] = now();
+		t[i] = bench_wall();
 		place_ask(&p, MESSAGE_SUSPEND, id);
-		t[i] = now() - t[i];
-		u[i] = now();
+		t[i] = bench_wall() - t[i];
+		u[i] = bench_wall();
 		place_ask(&p, MESSAGE_ACTIVATE, id);
-		u[i] = now() - u[i];
+		u[i] = bench_wall() - u[i];
 	}
-	printf("suspend: %.2f ms, activate: %.2f ms, from request to answer\n",
-	       median(t, RUNS) * 1e3, median(u, RUNS) * 1e3);
+	row("suspend, from request to answer", "ms", bench_median(t, RUNS) * 1e3, 10, true);
+	row("activate, likewise", "ms", bench_median(u, RUNS) * 1e3, 10, true);
 	kill(place_job(&p, id)->pid, SIGKILL);
 	place_end(&p, id);
 	place_finish(&p);
@@ -134,12 +131,13 @@ static void packets(void)
 {
 	struct place p;
 	place_init(&p, "BATTEN_NICE=0");
-	double began = now();
+	double began = bench_wall();
 	int64_t id = place_submit(&p, "burst", PACKETS, NULL);
 	const struct Stats *s = place_end(&p, id);
-	double took = now() - began;
-	printf("packets from one worker, one write each: %.0f a second%s\n", PACKETS / took,
-	       s->state == JOB_DONE ? "" : " (the job failed)");
+	double took = bench_wall() - began;
+	if (s->state != JOB_DONE)
+		bench_fail("the job of many packets failed");
+	row("packets from one worker, a write each", "/s", PACKETS / took, 200000, false);
 	place_finish(&p);
 }
 
@@ -150,23 +148,23 @@ static void long_list_and_rest(void)
 	place_init(&p, "BATTEN_JOBS=1");
 	int64_t id = place_submit(&p, "stubborn", 0, NULL);
 	place_until(&p, id, JOB_RUNNING);
-	double began = now();
+	double began = bench_wall();
 	submit_many(&p, "nothing", LIST);
-	double submit = now() - began;
+	double submit = bench_wall() - began;
 	double cpu = cpu_of(p.service), own = cpu_of(getpid());
 	for (int i = 0; i < RUNS; i++) {
-		t[i] = now();
+		t[i] = bench_wall();
 		client_request(p.client, MESSAGE_LIST, json_object(), NULL, NULL, NULL, NULL);
-		t[i] = now() - t[i];
+		t[i] = bench_wall() - t[i];
 	}
-	printf("10,000 queued jobs: submitted in %.0f ms, listed in %.1f ms (CPU: service %.1f ms, client "
-	       "%.1f ms)\n",
-	       submit * 1e3, median(t, RUNS) * 1e3, (cpu_of(p.service) - cpu) / RUNS * 1e3,
+	row("10,000 queued jobs listed", "ms", bench_median(t, RUNS) * 1e3, 100, true);
+	printf("  submitted in %.0f ms; CPU of a list: service %.1f ms, client %.1f ms\n",
+	       submit * 1e3, (cpu_of(p.service) - cpu) / RUNS * 1e3,
 	       (cpu_of(getpid()) - own) / RUNS * 1e3);
 	double before = cpu_of(p.service);
 	sleep(3); /* what is measured is rest */
-	printf("idle service with one client: %.3f %% of a core\n",
-	       (cpu_of(p.service) - before) / 3 * 100);
+	row("idle service with one client", "% of a core", (cpu_of(p.service) - before) / 3 * 100,
+	    0.1, true);
 	client_request(p.client, MESSAGE_KILL, json_pack("{s:s}", "group", "many"), NULL, NULL,
 	               NULL, NULL);
 	kill(place_job(&p, id)->pid, SIGKILL);
@@ -188,12 +186,12 @@ static void durable_change(void)
 	for (int i = 0; i < 2 * WRITES; i++) {
 		s.id = i + 1;
 		struct ledger_change c = { .id = s.id, .stats = &s };
-		double began = now();
+		double began = bench_wall();
 		l.write(l.data, &c, 1, i >= WRITES, NULL);
-		t[i / WRITES][i % WRITES] = now() - began;
+		t[i / WRITES][i % WRITES] = bench_wall() - began;
 	}
-	printf("state change in the ledger: %.0f us, through a power cut %.0f us\n",
-	       median(t[0], WRITES) * 1e6, median(t[1], WRITES) * 1e6);
+	row("state change in the ledger", "us", bench_median(t[0], WRITES) * 1e6, 500, true);
+	row("the same through a power cut", "us", bench_median(t[1], WRITES) * 1e6, 500, true);
 	ledger_close(&l);
 	free(path);
 	place_finish(&p);
@@ -214,9 +212,9 @@ static double memory_of(pid_t pid)
 
 static double list_all(struct client *c)
 {
-	double began = now();
+	double began = bench_wall();
 	client_request(c, MESSAGE_LIST, json_pack("{s:b}", "all", 1), NULL, NULL, NULL, NULL);
-	return now() - began;
+	return bench_wall() - began;
 }
 
 /* A hundred clients watch ten thousand jobs and ask, all at once. */
@@ -230,7 +228,7 @@ static void hundred_clients(void)
 	int64_t id = place_submit(&p, "stubborn", 0, NULL);
 	place_until(&p, id, JOB_RUNNING);
 	submit_many(&p, "nothing", LIST);
-	double before = memory_of(p.service), began = now();
+	double before = memory_of(p.service), began = bench_wall();
 	for (int i = 0; i < CLIENTS; i++)
 		if (client_connect(&c[i], &p.project, false, NULL) != ST_OK ||
 		    client_send(c[i], MESSAGE_LIST, json_object(), NULL) != ST_OK)
@@ -238,16 +236,16 @@ static void hundred_clients(void)
 	for (int i = 0; i < CLIENTS; i++, ended = false) {
 		while (!ended && !gone)
 			client_listen(c[i], 1000, -1, NULL, NULL, &ended, &gone, NULL);
-		t[i] = now() - began;
+		t[i] = bench_wall() - began;
 	}
 	double most = memory_of(p.service);
 	for (int i = 0; i < CLIENTS; i++)
 		client_close(c[i]);
 	list_all(p.client);
-	printf("100 clients list 10,000 jobs at once: the first in %.0f ms, all in %.2f s%s; memory "
-	       "of the service %.1f MiB before, %.1f at most, %.1f after\n",
-	       t[0] * 1e3, t[CLIENTS - 1], gone ? " (some were let go)" : "", before, most,
-	       memory_of(p.service));
+	row("100 clients list 10,000 jobs at once, all", "s", t[CLIENTS - 1], 0, true);
+	printf("  the first in %.0f ms%s; memory of the service %.1f MiB before, %.1f at most, %.1f "
+	       "after\n",
+	       t[0] * 1e3, gone ? " (some were let go)" : "", before, most, memory_of(p.service));
 	client_request(p.client, MESSAGE_KILL, json_pack("{s:s}", "group", "many"), NULL, NULL,
 	               NULL, NULL);
 	kill(place_job(&p, id)->pid, SIGKILL);
@@ -285,18 +283,19 @@ static void many_ended(void)
 	place_init(&p, "BATTEN_JOBS=2 BATTEN_NICE=0");
 	place_crash(&p);
 	ended_write(&p);
-	double start = now();
+	double start = bench_wall();
 	place_connect(&p);
-	start = now() - start;
-	double all = list_all(p.client), first = memory_of(p.service), began = now();
+	start = bench_wall() - start;
+	double all = list_all(p.client), first = memory_of(p.service), began = bench_wall();
 	client_request(p.client, MESSAGE_LIST, json_object(), NULL, NULL, NULL, NULL);
-	double recent = now() - began;
-	began = now();
+	double recent = bench_wall() - began;
+	began = bench_wall();
 	client_request(p.client, MESSAGE_PRUNE, json_object(), NULL, NULL, NULL, NULL);
-	printf("100,000 ended jobs: service starts in %.0f ms, lists all in %.0f ms, those of the last "
-	       "hour in %.1f ms, prunes in %.0f ms; memory %.1f MiB\n",
-	       start * 1e3, all * 1e3, recent * 1e3, (now() - began) * 1e3, first);
-	printf("memory of the service, after each 1000 jobs run and pruned:");
+	row("start over 100,000 ended jobs", "ms", start * 1e3, 0, true);
+	row("list of all of them", "ms", all * 1e3, 0, true);
+	printf("  those of the last hour in %.1f ms, pruned in %.0f ms; memory %.1f MiB\n",
+	       recent * 1e3, (bench_wall() - began) * 1e3, first);
+	printf("  memory of the service, after each 1000 jobs run and pruned:");
 	for (int i = 0; i < ROUNDS; i++) {
 		submit_many(&p, "nothing", JOBS);
 		client_request(p.client, MESSAGE_WAIT, json_pack("{s:s}", "group", "many"), NULL,

@@ -21,20 +21,10 @@ SENTENCES = [
     (r"^(10 cylinders, 1e-6) .*, ([\d.]+) ms", "12", "ms", 6, True),
     (r"^(silhouette, 1e-6) .*, ([\d.]+) ms", "14", "ms", 4, True),
     (r"^(isophote 35 degrees, 1e-6) .*, ([\d.]+) ms", "15", "ms", 10, True),
-    (r"^(1000 jobs that do nothing), .*ratio ([\d.]+)", "jobs", "x xargs -P2", 3, True),
-    (r"^(submit to HELLO): ([\d.]+) ms", "jobs", "ms", 10, True),
-    (r"^(suspend): ([\d.]+) ms", "jobs", "ms", 10, True),
-    (r"^(packets from one worker), .*: (\d+) a second", "jobs", "/s", 200000, False),
-    (r"^(10,000 queued jobs: .*listed) in ([\d.]+) ms", "jobs", "ms", 100, True),
-    (r"^(idle service with one client): ([\d.]+) %", "jobs", "% of a core", 0.1, True),
-    (r"^(state change in the ledger): ([\d.]+) us", "jobs", "us", 500, True),
 ]
 
 # What is known of why a row may not be met: pattern of its name, and the reason.
 REASONS = [
-    (r"a ray a call", "By perf a third of the time is Embree's tree with its call a leaf, a third the iteration on the leaves "
-     "that are not rejected (chains of dependent operations, two or three steps each), a tenth their rejection and as "
-     "much the start and end of a ray. A wider tree of our own without the call a leaf would be needed."),
 ]
 BUSY = 1.3  # wall / CPU above which the machine was not alone
 
