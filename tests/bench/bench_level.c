@@ -1,180 +1,313 @@
-/* bench_level.c - time the tracer on the shapes with known answers; prints a row each. */
+/* bench_level.c - curves on a surface with known answers: speed, how many are found, how far they are from the exact
+ * ones, beside the peers that are installed and a mesh, in turn with them in one run. CPU time, medians, one thread. */
 #include <stdio.h>
-#include <time.h>
+#include <stdlib.h>
 
 #include "../geometry/level_shapes.h"
+#include "bench.h"
+#include "bench_curves.h"
+#include "bench_march.h"
+#include "peer.h"
 
-enum { RUNS = 5 };
+enum { ROUNDS = 5, SIDES = 4 };
 
-struct row {
-	const char *name;
+static const struct peer *const peers[] = {
+#ifdef HAVE_SISL
+	&peer_sisl,
+#endif
+#ifdef HAVE_OCCT
+	&peer_occt,
+#endif
+	NULL, /* ends the list */
+};
+
+/* Pieces were counted elsewhere by changes of sign on a grid. */
+static const struct row {
+	const char *row, *what;
 	enum level_kind kind;
-	struct vec3 direction;
+	enum peer_field_kind theirs;
+	struct vec3 direction, point;
 	double value, tolerance;
 	int many; /* values value + k step */
 	double step;
 	double target; /* ms */
-	size_t known;  /* pieces, counted elsewhere by changes of sign on a grid */
-	struct vec3 point, eye;
-};
-
-static const struct row rows[] = {
-	{ "50 planes, 1e-6",
+	int known;
+} rows[] = {
+	{ "10",
+	  "50 planes, 1e-6",
 	  LEVEL_PLANE,
+	  PEER_PLANE,
 	  { 0, 0, 1 },
+	  { 0, 0, 0 },
 	  -0.784,
 	  1e-6,
 	  50,
 	  0.032,
 	  30,
-	  900,
-	  { 0, 0, 0 },
-	  { 0, 0, 0 } },
-	{ "50 planes, 1e-4",
+	  900 },
+	{ "11",
+	  "50 planes, 1e-4",
 	  LEVEL_PLANE,
+	  PEER_PLANE,
 	  { 0, 0, 1 },
+	  { 0, 0, 0 },
 	  -0.784,
 	  1e-4,
 	  50,
 	  0.032,
 	  18,
-	  900,
-	  { 0, 0, 0 },
-	  { 0, 0, 0 } },
-	{ "silhouette, 1e-6",
-	  LEVEL_SILHOUETTE,
-	  { 0.8, 0.36, 0.48 },
-	  0,
-	  1e-6,
-	  1,
-	  0,
-	  4,
-	  12,
-	  { 0, 0, 0 },
-	  { 0, 0, 0 } },
-	{ "silhouette from an eye, 1e-6",
-	  LEVEL_EYE,
-	  { 0, 0, 0 },
-	  0,
-	  1e-6,
-	  1,
-	  0,
-	  7,
-	  9,
-	  { 0, 0, 0 },
-	  { 30, 18, 14 } },
-	{ "10 cylinders, 1e-6",
+	  900 },
+	{ "12",
+	  "10 cylinders, 1e-6",
 	  LEVEL_CYLINDER,
+	  PEER_CYLINDER,
 	  { 1, 0, 0 },
+	  { 0, 5, 0 },
 	  0.3,
 	  1e-6,
 	  10,
 	  0.45,
 	  6,
-	  20,
-	  { 0, 5, 0 },
-	  { 0, 0, 0 } },
-	{ "isophote 35 degrees, 1e-6",
-	  LEVEL_ISOPHOTE,
+	  20 },
+	{ "14",
+	  "silhouette, 1e-6",
+	  LEVEL_SILHOUETTE,
+	  PEER_SILHOUETTE,
+	  { 0.8, 0.36, 0.48 },
+	  { 0, 0, 0 },
+	  0,
+	  1e-6,
+	  1,
+	  0,
+	  4,
+	  12 },
+	{ "14",
+	  "silhouette from an eye, 1e-6",
+	  LEVEL_EYE,
+	  PEER_EYE,
 	  { 0, 0, 1 },
+	  { 30, 18, 14 },
+	  0,
+	  1e-6,
+	  1,
+	  0,
+	  7,
+	  9 },
+	{ "15",
+	  "isophote 35 degrees, 1e-6",
+	  LEVEL_ISOPHOTE,
+	  PEER_ISOPHOTE,
+	  { 0, 0, 1 },
+	  { 0, 0, 0 },
 	  0.81915204428899178,
 	  1e-6,
 	  1,
 	  0,
 	  10,
-	  85,
-	  { 0, 0, 0 },
-	  { 0, 0, 0 } },
-	{ "isophote 50 degrees, 1e-6",
+	  85 },
+	{ "15",
+	  "isophote 50 degrees, 1e-6",
 	  LEVEL_ISOPHOTE,
+	  PEER_ISOPHOTE,
 	  { 0, 0, 1 },
+	  { 0, 0, 0 },
 	  0.64278760968653933,
 	  1e-6,
 	  1,
 	  0,
 	  15,
-	  84,
-	  { 0, 0, 0 },
-	  { 0, 0, 0 } },
+	  84 },
 };
 
-static double cpu_ms(void)
+static struct level_field field_of(const struct row *row, int k)
 {
-	struct timespec t;
-	clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-	return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+	return (struct level_field){ .kind = row->kind,
+		                     .direction = row->direction,
+		                     .value = row->value + k * row->step,
+		                     .point = row->point,
+		                     .eye = row->point };
 }
 
-static int compare(const void *a, const void *b)
-{
-	double x = *(const double *)a, y = *(const double *)b;
-	return (x > y) - (x < y);
-}
-
-/* Counts of one run, summed over the planes. */
-struct sum {
-	size_t branches, closed, undecided, points;
+/* One way to the curves of a row: ours, a peer's, or a mesh. */
+struct job {
+	const struct row *row;
+	const struct surface *s;
+	const struct peer *peer; /* NULL: ours, or the mesh */
+	void *theirs;
+	bool mesh;
+	struct off *off; /* not NULL: places of the curves are checked */
+	/* ours, of the last run: */
+	size_t closed, undecided, pieces;
 	double length, max_error;
 };
 
-static void sum_add(struct sum *sum, const struct level_result *x)
+static void result_check(const struct level_result *x, struct off *off)
 {
-	sum->branches += x->n_branches;
-	sum->closed += x->n_closed;
-	sum->undecided += x->n_undecided;
-	sum->length += x->length;
-	sum->max_error = fmax(sum->max_error, x->max_error);
-	for (size_t i = 0; i < x->n_branches; i++)
-		sum->points += x->branches[i].uv.n;
+	for (size_t b = 0; b < x->n_branches; b++) {
+		const struct curve *c = &x->branches[b].space;
+		for (int i = 0; i < PEER_PLACES; i++) {
+			const double t = (i + 0.5) / PEER_PLACES;
+			const struct vec3 p =
+			        curve_point(c, c->domain[0] + t * (c->domain[1] - c->domain[0]));
+			off_add((double[3]){ p.x, p.y, p.z }, off);
+		}
+	}
 }
 
 /* From the surface on; what is prepared for the first value serves all. */
-static enum status run(const struct surface *s, const struct row *row, struct sum *sum)
+static int run_ours(struct job *j)
 {
-	struct level_field field = { .kind = row->kind,
-		                     .direction = row->direction,
-		                     .value = row->value,
-		                     .point = row->point,
-		                     .eye = row->eye };
+	const struct row *row = j->row;
 	struct level *first = NULL;
-	enum status st = level_create(&first, s, &field, row->tolerance, NULL);
-	*sum = (struct sum){ 0 };
+	struct level_field field = field_of(row, 0);
+	int found = 0;
+	enum status st = level_create(&first, j->s, &field, row->tolerance, NULL);
+	j->closed = j->undecided = j->pieces = 0;
+	j->length = j->max_error = 0;
 	for (int k = 0; st == ST_OK && k < row->many; k++) {
 		struct level_result x = { 0 };
 		struct level *l = NULL;
-		st = level_create_like(&l, first, row->value + k * row->step, NULL);
+		field = field_of(row, k);
+		st = level_create_like(&l, first, field.value, NULL);
 		if (st == ST_OK)
 			st = shape_trace_level(l, &x, NULL);
-		sum_add(sum, &x);
+		found += (int)x.n_branches;
+		j->closed += x.n_closed;
+		j->undecided += x.n_undecided;
+		j->length += x.length;
+		j->max_error = fmax(j->max_error, x.max_error);
+		for (size_t i = 0; i < x.n_branches; i++)
+			j->pieces += x.branches[i].uv.n / 3;
+		if (j->off) {
+			j->off->field = &field;
+			result_check(&x, j->off);
+		}
 		level_result_finish(&x);
 		level_destroy(l);
 	}
 	level_destroy(first);
-	return st;
+	if (st != ST_OK)
+		bench_fail("curves could not be traced");
+	return found;
+}
+
+static int run_peer(struct job *j)
+{
+	const struct row *row = j->row;
+	struct peer_field f = { .kind = row->theirs,
+		                .direction = { row->direction.x, row->direction.y,
+		                               row->direction.z },
+		                .point = { row->point.x, row->point.y, row->point.z },
+		                .tolerance = row->tolerance };
+	int found = 0;
+	for (int k = 0; k < row->many; k++) {
+		const struct level_field field = field_of(row, k);
+		f.value = field.value;
+		if (j->off)
+			j->off->field = &field;
+		found += j->peer->curves(j->theirs, &f, j->off ? off_add : NULL, j->off);
+	}
+	return found;
+}
+
+static int run_mesh(struct job *j)
+{
+	const struct row *row = j->row;
+	struct level_field field = field_of(row, 0);
+	struct march *m = march_create(j->s, &field);
+	int found = 0;
+	for (int k = 0; k < row->many; k++) {
+		field = field_of(row, k);
+		if (j->off)
+			j->off->field = &field;
+		found += march_curves(m, field.value, j->off ? off_add : NULL, j->off);
+	}
+	march_destroy(m);
+	return found;
+}
+
+static double run(void *data)
+{
+	struct job *j = data;
+	return j->mesh ? run_mesh(j) : j->peer ? run_peer(j) : run_ours(j);
+}
+
+/* False where a count or an error of ours is wrong. */
+static bool row_run(const struct row *row, const struct surface *s, void *const *theirs)
+{
+	struct job jobs[SIDES] = { { .row = row, .s = s } };
+	struct bench_side sides[SIDES] = { { .name = "batten", .run = run, .data = &jobs[0] } };
+	int n = 1;
+	for (; peers[n - 1]; n++) {
+		jobs[n] = (struct job){
+			.row = row, .s = s, .peer = peers[n - 1], .theirs = theirs[n - 1]
+		};
+		sides[n] = (struct bench_side){ .name = peers[n - 1]->name,
+			                        .run = run,
+			                        .data = &jobs[n] };
+	}
+	jobs[n] = (struct job){ .row = row, .s = s, .mesh = true };
+	sides[n] = (struct bench_side){ .name = "a mesh", .run = run, .data = &jobs[n] };
+	n++;
+	bench_alternate(sides, n, ROUNDS);
+
+	char what[3][80];
+	static const char *const names[3] = { "%s", "%s: true error", "%s: curves found" };
+	for (int k = 0; k < 3; k++)
+		snprintf(what[k], sizeof what[k], names[k], row->what);
+	struct bench_row time = { row->row,    what[0], "ms",     1e3 * sides[0].cpu,
+		                  row->target, true,    { { 0 } } };
+	struct bench_row error = { row->row, what[1], "", 0, row->tolerance, true, { { 0 } } };
+	struct bench_row count = { row->row,   what[2], "",       sides[0].check,
+		                   row->known, false,   { { 0 } } };
+	struct off off[SIDES];
+	for (int k = 0; k < n; k++) {
+		off[k] = (struct off){ .s = s };
+		jobs[k].off = &off[k];
+		run(&jobs[k]);
+		if (k == 0) {
+			error.ours = off[k].most;
+		} else if (sides[k].check > 0) {
+			error.peer[k - 1] = (struct bench_peer){ sides[k].name, off[k].most };
+			count.peer[k - 1] = (struct bench_peer){ sides[k].name, sides[k].check };
+			if (!jobs[k].mesh)
+				time.peer[k - 1] =
+				        (struct bench_peer){ sides[k].name, 1e3 * sides[k].cpu };
+		}
+	}
+	bench_print(&time);
+	bench_print(&error);
+	bench_print(&count);
+	printf("%s (%d known):\n  batten: %g curves, %zu closed, %zu undecided, %zu pieces, length %.9g, stated error %.2g\n",
+	       row->what, row->known, sides[0].check, jobs[0].closed, jobs[0].undecided,
+	       jobs[0].pieces, jobs[0].length, jobs[0].max_error);
+	for (int k = 1; k < n; k++)
+		if (sides[k].check > 0)
+			printf("  %s: %g curves, %.3g ms, error %.2g%s%s\n", sides[k].name,
+			       sides[k].check, 1e3 * sides[k].cpu, off[k].most,
+			       off[k].most > row->tolerance ? ", misses the tolerance" : "",
+			       off[k].lost > 0 ? ", partly far from any exact curve" : "");
+	return sides[0].check == row->known && jobs[0].undecided == 0 && off[0].lost == 0 &&
+	       off[0].most <= jobs[0].max_error + 1e-9 && jobs[0].max_error <= row->tolerance;
 }
 
 int main(void)
 {
 	struct surface s;
+	void *theirs[SIDES] = { 0 };
 	if (shape_make(&s, 4, 30, shape_wavy) != ST_OK)
 		return 1;
-	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-		const struct row *row = &rows[i];
-		double ms[RUNS];
-		struct sum sum;
-		for (int k = 0; k < RUNS; k++) {
-			double start = cpu_ms();
-			if (run(&s, row, &sum) != ST_OK)
-				return 1;
-			ms[k] = cpu_ms() - start;
-		}
-		qsort(ms, RUNS, sizeof *ms, compare);
-		printf("%-28s %4zu pieces (known: %zu), %4zu closed, %zu undecided, error %.2g, length %.9g, "
-		       "%zu points, %.1f ms (target %.0f: %.2f of it)\n",
-		       row->name, sum.branches, row->known, sum.closed, sum.undecided,
-		       sum.max_error, sum.length, sum.points, ms[RUNS / 2], row->target,
-		       ms[RUNS / 2] / row->target);
-	}
+	const struct peer_net net = { .order = { s.order[0], s.order[1] },
+		                      .n = { s.n[0], s.n[1] },
+		                      .knots = { s.knots[0], s.knots[1] },
+		                      .points = s.points };
+	for (int k = 0; peers[k]; k++)
+		theirs[k] = peers[k]->surface(&net);
+	bool right = true;
+	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+		right &= row_run(&rows[i], &s, theirs);
+	for (int k = 0; peers[k]; k++)
+		peers[k]->drop(theirs[k]);
 	surface_finish(&s);
-	return 0;
+	return right ? 0 : 1;
 }

@@ -16,6 +16,24 @@ struct peer_net {
 	const double *knots[2], *points;
 };
 
+/* Curves on a surface, as level.h has them. */
+enum peer_field_kind {
+	PEER_PLANE,      /* S . direction = value */
+	PEER_CYLINDER,   /* distance from the line through `point` along `direction` = value */
+	PEER_SILHOUETTE, /* N . direction = 0 */
+	PEER_EYE,        /* N . (S - point) = 0 */
+	PEER_ISOPHOTE,   /* N . direction = value */
+};
+struct peer_field {
+	enum peer_field_kind kind;
+	double direction[3], point[3], value; /* direction of length 1 */
+	double tolerance;
+};
+
+/* One place of a curve that a peer found. */
+typedef void peer_place(const double xyz[3], void *data);
+enum { PEER_PLACES = 100 }; /* of each curve */
+
 /* Every sum is of all results: of Gaussian curvatures, or of x + y + z. */
 struct peer {
 	const char *name, *version;
@@ -35,6 +53,8 @@ struct peer {
 	/* The offset along the normal, over the same parameters: a surface of the peer's, or NULL. */
 	void *(*offset)(void *surface, double distance, double tolerance);
 	void (*poles)(void *surface, int n[2]);
+	/* How many curves; 0 where the peer does not know the kind. `place` may be NULL. */
+	int (*curves)(void *surface, const struct peer_field *f, peer_place *place, void *data);
 	/* IGES to splines in memory: how many things came of it. */
 	int (*read_iges)(const char *path);
 };

@@ -1,8 +1,13 @@
 /* peer_occt.cc - Open CASCADE. */
 #include "peer.h"
 
+#include <cmath>
 #include <vector>
 
+#include <Adaptor3d_TopolTool.hxx>
+#include <Contap_Contour.hxx>
+#include <Contap_Line.hxx>
+#include <GeomAPI_IntSS.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomAPI_PointsToBSplineSurface.hxx>
 #include <GeomAdaptor_Surface.hxx>
@@ -10,10 +15,13 @@
 #include <GeomLProp_SLProps.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_CylindricalSurface.hxx>
+#include <Geom_Plane.hxx>
 #include <Geom_OffsetSurface.hxx>
 #include <IGESControl_Reader.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
+#include <Standard_Failure.hxx>
 #include <Standard_Version.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -188,6 +196,70 @@ static void poles(void *data, int n[2])
 	n[1] = static_cast<occt *>(data)->s->NbVPoles();
 }
 
+static void place_at(const gp_Pnt &p, peer_place *place, void *data)
+{
+	const double xyz[3] = { p.X(), p.Y(), p.Z() };
+	place(xyz, data);
+}
+
+static int cut_curves(const occt *x, const peer_field *f, peer_place *place, void *data)
+{
+	const gp_Dir d(f->direction[0], f->direction[1], f->direction[2]);
+	const gp_Pnt p(f->point[0], f->point[1], f->point[2]);
+	Handle(Geom_Surface) by;
+	if (f->kind == PEER_PLANE)
+		by = new Geom_Plane(gp_Pnt(d.XYZ() * f->value), d);
+	else
+		by = new Geom_CylindricalSurface(gp_Ax3(p, d), f->value);
+	GeomAPI_IntSS found(x->s, by, f->tolerance);
+	const int n = found.IsDone() ? found.NbLines() : 0;
+	for (int i = 1; place && i <= n; i++) {
+		const Handle(Geom_Curve) &c = found.Line(i);
+		const double from = c->FirstParameter(), to = c->LastParameter();
+		for (int k = 0; k < PEER_PLACES; k++)
+			place_at(c->Value(from + (to - from) * (k + 0.5) / PEER_PLACES), place, data);
+	}
+	return n;
+}
+
+/* Broken lines. */
+static int outline_curves(const occt *x, const peer_field *f, peer_place *place, void *data)
+{
+	const gp_Vec d(f->direction[0], f->direction[1], f->direction[2]);
+	const Handle(GeomAdaptor_Surface) s = new GeomAdaptor_Surface(x->s);
+	const Handle(Adaptor3d_TopolTool) domain = new Adaptor3d_TopolTool(s);
+	Contap_Contour found;
+	if (f->kind == PEER_SILHOUETTE)
+		found.Perform(s, domain, d);
+	else if (f->kind == PEER_EYE)
+		found.Perform(s, domain, gp_Pnt(f->point[0], f->point[1], f->point[2]));
+	else
+		found.Perform(s, domain, -d, std::asin(f->value)); /* N . -d = -sin(angle) */
+	const int n = found.IsDone() ? found.NbLines() : 0;
+	for (int i = 1; place && i <= n; i++) {
+		const Contap_Line &line = found.Line(i);
+		const int points = line.TypeContour() == Contap_Walking ? line.NbPnts() : 0;
+		for (int k = 1; k < points; k++) {
+			const gp_XYZ a = line.Point(k).Value().XYZ(), b = line.Point(k + 1).Value().XYZ();
+			place_at(gp_Pnt(a), place, data);
+			place_at(gp_Pnt((a + b) / 2), place, data);
+		}
+	}
+	return n;
+}
+
+static int curves(void *data, const peer_field *f, peer_place *place, void *place_data)
+{
+	const occt *x = static_cast<occt *>(data);
+	try {
+		return f->kind == PEER_PLANE || f->kind == PEER_CYLINDER
+		               ? cut_curves(x, f, place, place_data)
+		               : outline_curves(x, f, place, place_data);
+	} catch (const Standard_Failure &) {
+		return 0;
+	}
+}
+
 static int read_iges(const char *path)
 {
 	Message::DefaultMessenger()->ChangePrinters().Clear();
@@ -206,5 +278,5 @@ const struct peer peer_occt = {
 	curvatures,        curvature,
 	interpolate_curve, interpolate_surface,
 	offset,            poles,
-	read_iges,
+	curves,            read_iges,
 };

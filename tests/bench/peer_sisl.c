@@ -200,6 +200,76 @@ static void poles(void *data, int n[2])
 	n[1] = x->s->in2;
 }
 
+/* What finds the curves of a kind, without their course; and what follows one. */
+static void find_curves(SISLSurf *s, const struct peer_field *f, SISLIntcurve ***found, int *n)
+{
+	double p[3], d[3], *points = NULL;
+	int n_points = 0, status = 0;
+	memcpy(p, f->point, sizeof p);
+	memcpy(d, f->direction, sizeof d);
+	if (f->kind == PEER_PLANE)
+		for (int c = 0; c < 3; c++)
+			p[c] = f->value * d[c];
+	if (f->kind == PEER_PLANE)
+		s1851(s, p, d, 3, 0, f->tolerance, &n_points, &points, n, found, &status);
+	else if (f->kind == PEER_CYLINDER)
+		s1853(s, p, d, f->value, 3, 0, f->tolerance, &n_points, &points, n, found, &status);
+	else if (f->kind == PEER_SILHOUETTE)
+		s1860(s, d, 3, 0, f->tolerance, &n_points, &points, n, found, &status);
+	else if (f->kind == PEER_EYE)
+		s1510(s, p, 3, 0, f->tolerance, &n_points, &points, n, found, &status);
+	free(points);
+}
+
+static void follow_curve(SISLSurf *s, const struct peer_field *f, SISLIntcurve *curve)
+{
+	double p[3], d[3];
+	int status = 0;
+	memcpy(p, f->point, sizeof p);
+	memcpy(d, f->direction, sizeof d);
+	if (f->kind == PEER_PLANE)
+		for (int c = 0; c < 3; c++)
+			p[c] = f->value * d[c];
+	if (f->kind == PEER_PLANE)
+		s1314(s, p, d, 3, 0, f->tolerance, 0, curve, 1, 0, &status);
+	else if (f->kind == PEER_CYLINDER)
+		s1316(s, p, d, f->value, 3, 0, f->tolerance, 0, curve, 1, 0, &status);
+	else if (f->kind == PEER_SILHOUETTE)
+		s1319(s, d, 3, 0, f->tolerance, 0, curve, 1, 0, &status);
+	else
+		s1514(s, p, 3, 0, f->tolerance, 0, curve, 1, 0, &status);
+}
+
+static void places_of(SISLCurve *c, peer_place *place, void *data)
+{
+	const double from = c->et[c->ik - 1], to = c->et[c->in];
+	int left = 0, status;
+	for (int i = 0; i < PEER_PLACES; i++) {
+		double p[3];
+		s1221(c, 0, from + (to - from) * (i + 0.5) / PEER_PLACES, &left, p, &status);
+		place(p, data);
+	}
+}
+
+static int curves(void *data, const struct peer_field *f, peer_place *place, void *place_data)
+{
+	const struct sisl *x = data;
+	SISLIntcurve **found = NULL;
+	int n = 0, followed = 0;
+	find_curves(x->s, f, &found, &n);
+	for (int i = 0; i < n; i++) {
+		follow_curve(x->s, f, found[i]);
+		if (!found[i]->pgeom)
+			continue;
+		followed++;
+		if (place)
+			places_of(found[i]->pgeom, place, place_data);
+	}
+	if (found)
+		freeIntcrvlist(found, n);
+	return followed;
+}
+
 const struct peer peer_sisl = {
 	.name = "SISL",
 	.surface = surface,
@@ -214,4 +284,5 @@ const struct peer peer_sisl = {
 	.interpolate_surface = interpolate_surface,
 	.offset = offset,
 	.poles = poles,
+	.curves = curves,
 };

@@ -14,15 +14,6 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PEERS = ["libsisl-dev", "libocct-modeling-algorithms-dev", "libembree-dev", "povray"]
 
-# Rows of benchmarks that print sentences: pattern, row, name, unit, target, less is better.
-SENTENCES = [
-    (r"^(50 planes, 1e-6) .*, ([\d.]+) ms", "10", "ms", 30, True),
-    (r"^(50 planes, 1e-4) .*, ([\d.]+) ms", "11", "ms", 18, True),
-    (r"^(10 cylinders, 1e-6) .*, ([\d.]+) ms", "12", "ms", 6, True),
-    (r"^(silhouette, 1e-6) .*, ([\d.]+) ms", "14", "ms", 4, True),
-    (r"^(isophote 35 degrees, 1e-6) .*, ([\d.]+) ms", "15", "ms", 10, True),
-]
-
 # What is known of why a row may not be met: pattern of its name, and the reason.
 REASONS = [
 ]
@@ -66,14 +57,6 @@ def rows_of(text):
     for line in text.splitlines():
         if line.startswith("row "):
             yield [c.strip() for c in line[4:].split("|")]
-            continue
-        for pattern, row, unit, target, less in SENTENCES:
-            m = re.match(pattern, line)
-            if m:
-                value = float(m.group(2))
-                met = value <= target if less else value >= target
-                yield [row, m.group(1), f"{value:g} {unit}", f"{'<=' if less else '>='} {target}", "", "",
-                       "met" if met else "not met"]
 
 
 def reason(what):
