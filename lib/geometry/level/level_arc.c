@@ -120,7 +120,7 @@ static void piece_set(const struct station *a, const struct station *b, double l
 
 static void piece_add(const struct follower *w, const struct piece *p)
 {
-	struct piece *out = list_add(&w->t->pieces, sizeof *out);
+	struct piece *out = list_next(&w->t->pieces, sizeof *out);
 	if (out)
 		*out = *p;
 	else
@@ -306,12 +306,15 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 	/* a circle's arc of that chord and turn: chord / cos^2 (angle / 4) */
 	double first = size * 2 / (1 + sqrt(larger(0, (1 + turn) / 2)));
 	struct proof_middle mid;
-	struct proof proof, best = rough_proof(w, a, b, size, first);
+	struct proof proof, best = { .space = INFINITY, .uv = INFINITY };
 	struct piece x;
-	double off, used = 0;
+	const bool small = smaller(size, 2 * w->prover.diameter) <= tolerance;
+	if (small) /* else that is not enough */
+		best = rough_proof(w, a, b, size, first);
+	double used = 0;
 	piece_set(a, b, first, &x);
 	if (!good(w, &best) && turn > 0.3 && dot(chord, a->dp) > 0 &&
-	    level_fit(w->t, a, b, first, &x, &mid, uv, &off)) {
+	    level_fit(w->t, a, b, first, &x, &mid, uv)) {
 		bool proved = level_prove(&w->prover, &x, &mid, &proof);
 		if (proved)
 			proof_improve(&best, &proof);
@@ -325,6 +328,11 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 	bool enough = tiny || depth >= FIT_DEPTH_MAX ||
 	              (depth > FIT_DEPTH_EASY && w->t->pieces.n - w->first > PIECES_MAX);
 	if (good(w, &best) || enough || w->t->failed) {
+		if (!small && !good(w, &best)) {
+			proof = rough_proof(w, a, b, size, first);
+			best.space = smaller(best.space, proof.space);
+			best.uv = smaller(best.uv, proof.uv);
+		}
 		x.error = best.space;
 		x.error_uv = best.uv;
 		piece_add(w, &x);
@@ -357,7 +365,7 @@ void level_arc_follow(struct tracer *t, const struct cell_range *box, const doub
 	w.sure = STEP_SHARE *
 	         smaller(t->level->tolerance / first[0], t->level->tolerance_uv / first[1]);
 	fit(&w, &s[0], &s[1], 0);
-	struct arc *arc = list_add(&t->arcs, sizeof *arc);
+	struct arc *arc = list_next(&t->arcs, sizeof *arc);
 	if (!arc) {
 		t->failed = true;
 		return;

@@ -254,6 +254,15 @@ static int knots_put(struct curve *c, int i, double t, int times)
 	return i;
 }
 
+/* A cubic that is not cleared: all of it will be put. */
+static bool curve_room(struct curve *c, int n)
+{
+	*c = (struct curve){ .order = 4, .n = n };
+	c->knots = malloc(sizeof *c->knots * ((size_t)n + 4));
+	c->points = malloc(sizeof(double[4]) * n);
+	return c->knots && c->points;
+}
+
 /* A closed one ends where it began, to the bit. */
 static void end_close(struct curve *c, bool uv_too)
 {
@@ -276,11 +285,9 @@ static enum status curves_make(struct span *s, size_t n, double size, bool close
 	int cuts = 0;
 	for (size_t i = 1; i < n; i++)
 		cuts += s[i].cut;
-	enum status st = curve_init(&out->uv, 4, (int)(3 * n + 1) + cuts);
-	if (st == ST_OK)
-		st = curve_init(&out->space, 4, (int)(3 * n + 1) + cuts);
-	if (st != ST_OK)
-		return st;
+	if (!curve_room(&out->uv, (int)(3 * n + 1) + cuts) ||
+	    !curve_room(&out->space, (int)(3 * n + 1) + cuts))
+		return ST_RESOURCE;
 	double t = 0;
 	int point = 0, knot = knots_put(&out->uv, 0, 0, 4);
 	for (size_t i = 0; i < n; i++) {

@@ -139,7 +139,7 @@ static bool plane_make(struct tracer *t, double *out)
 	const struct level_surface *s = surface_of(t);
 	const double *heights = s->heights + t->n_field * t->patch, away = t->level->direction[3];
 	for (size_t i = 0; i < t->n_field; i++)
-		out[i] = heights[i] + away * t->points[4 * i + 3];
+		out[i] = heights[i] + (s->net.rational ? away * t->points[4 * i + 3] : away);
 	t->bound = t->level->plane;
 	return true;
 }

@@ -13,6 +13,9 @@
 /* Effects nearer to one direction than this sine are one. */
 #define SINE_MIN 1e-3
 
+/* The middle is on the curve within this part of the tolerance. */
+#define OFF_SHARE 0.01
+
 static double dot(const double *a, const double *b)
 {
 	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -72,9 +75,9 @@ static double fit_uv(const struct place *q, const struct station *a, const struc
 	return fabs(more) < CHANGE_MAX * length ? length + more : length;
 }
 
-/* The lengths in space; returns how far from the curve the middle stays, squared. */
-static double fit_space(const struct place *q, const struct station *a, const struct station *b,
-                        double length, double out[2])
+/* The lengths in space. `enough`: how far from the curve the middle may stay. */
+static void fit_space(const struct place *q, const struct station *a, const struct station *b,
+                      double length, double enough, double out[2])
 {
 	double even[3], odd[3], off[3];
 	for (int d = 0; d < 3; d++) {
@@ -83,27 +86,26 @@ static double fit_space(const struct place *q, const struct station *a, const st
 		off[d] = q->target[d] - 0.5 * (a->p[d] + b->p[d]) - length * even[d];
 	}
 	without(even, q->along, q->per_square);
-	without(odd, q->along, q->per_square);
 	without(off, q->along, q->per_square);
 	out[0] = out[1] = length;
 	const double even2 = dot(even, even), by_even = dot(off, even) / even2;
 	if (!(fabs(by_even) < CHANGE_MAX * length))
-		return dot(off, off);
+		return;
 	for (int d = 0; d < 3; d++)
 		off[d] -= by_even * even[d];
+	out[0] = out[1] = length + by_even;
+	if (dot(off, off) <= enough * enough)
+		return;
+	without(odd, q->along, q->per_square);
 	const double shared = dot(odd, even) / even2, odd2 = dot(odd, odd);
 	for (int d = 0; d < 3; d++)
 		odd[d] -= shared * even[d];
 	const double rest2 = dot(odd, odd), by_odd = dot(off, odd) / rest2;
-	out[0] = out[1] = length + by_even;
 	if (!(rest2 > SINE_MIN * SINE_MIN * odd2 && fabs(by_odd) < CHANGE_MAX * length &&
 	      fabs(by_even - shared * by_odd) < CHANGE_MAX * length))
-		return dot(off, off);
-	for (int d = 0; d < 3; d++)
-		off[d] -= by_odd * odd[d];
+		return;
 	out[0] += by_odd - shared * by_odd;
 	out[1] -= by_odd + shared * by_odd;
-	return dot(off, off);
 }
 
 /* The parameters that make both cubics run alike: at the ends by their speeds, in the middle by how far one is
@@ -128,7 +130,7 @@ static void match(const struct place *q, const double uv[2], const struct piece 
 }
 
 bool level_fit(const struct tracer *t, const struct station *a, const struct station *b,
-               double length, struct piece *x, struct proof_middle *mid, double uv[2], double *off)
+               double length, struct piece *x, struct proof_middle *mid, double uv[2])
 {
 	const struct station *s[2] = { a, b };
 	struct place q;
@@ -140,7 +142,7 @@ bool level_fit(const struct tracer *t, const struct station *a, const struct sta
 	}
 	place_set(t, mid->uv, &q);
 	const double uv_length = fit_uv(&q, a, b, length);
-	*off = fit_space(&q, a, b, length, space);
+	fit_space(&q, a, b, length, OFF_SHARE * t->level->tolerance, space);
 	for (int e = 0; e < 2; e++) {
 		for (int d = 0; d < 2; d++) {
 			x->uv[e][d] = s[e]->uv[d];

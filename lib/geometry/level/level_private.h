@@ -366,11 +366,11 @@ struct station {
 };
 
 /*
- * level_fit.c: cubics between two points of the curve. `uv`: a place next to the curve's middle; `off`: how far
- * the cubic in space seems to be from the curve, squared. False where they lead out of the patch.
+ * level_fit.c: cubics between two points of the curve. `uv`: a place next to the curve's middle. False where
+ * they lead out of the patch.
  */
 bool level_fit(const struct tracer *t, const struct station *a, const struct station *b,
-               double length, struct piece *x, struct proof_middle *mid, double uv[2], double *off);
+               double length, struct piece *x, struct proof_middle *mid, double uv[2]);
 
 /* mid->uv set: the rest but how the parameters match. */
 void level_fit_middle(const struct tracer *t, struct proof_middle *mid);

@@ -29,7 +29,7 @@ enum { NODES = PROOF_NODES, GROUPS = PROOF_GROUPS };
 #define ASIDE    4.0
 
 /* A piece that uses so many tolerances in some nodes is not looked at in the others. */
-#define USED_MAX 1.5
+#define USED_MAX 1.0
 
 /* A rest below this part of what it is added to is small enough. */
 #define REST_SHARE 0.01

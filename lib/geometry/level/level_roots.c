@@ -24,12 +24,14 @@ static int sign_changes(const double *c, int n)
 	return k;
 }
 
-/* Value and derivatives at x by de Casteljau's steps. */
-static double evaluate(const double *c, int n, double x, double *slope, double *bend)
+/* Value and derivatives at x by de Casteljau's steps. Inlined for cubics. */
+static inline __attribute__((always_inline)) double steps(const double *c, int n, double x,
+                                                          double *slope, double *bend)
 {
 	double d[FIELD_DEGREE_MAX + 1];
 	*bend = 0;
-	memcpy(d, c, sizeof *d * (n + 1));
+	for (int i = 0; i <= n; i++)
+		d[i] = c[i];
 	for (int r = 1; r < n; r++) {
 		if (r == n - 1)
 			*bend = n * (n - 1) * (d[0] - 2 * d[1] + d[2]);
@@ -38,6 +40,11 @@ static double evaluate(const double *c, int n, double x, double *slope, double *
 	}
 	*slope = n * (d[1] - d[0]);
 	return d[0] + x * (d[1] - d[0]);
+}
+
+static double evaluate(const double *c, int n, double x, double *slope, double *bend)
+{
+	return n == 3 ? steps(c, 3, x, slope, bend) : steps(c, n, x, slope, bend);
 }
 
 /* Halley's method kept in a bracket. */

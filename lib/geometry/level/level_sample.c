@@ -5,6 +5,7 @@
 #include <string.h>
 
 typedef double lanes __attribute__((vector_size(32)));
+typedef long long bits __attribute__((vector_size(32)));
 
 enum { LANES = 4, NODES = PROOF_NODES, HALF = NODES / 2, GROUPS = PROOF_GROUPS };
 
@@ -138,8 +139,8 @@ WIDE void level_sample_sums(const struct proof_tables *table, const double v[NOD
                             double out[4])
 {
 	lanes even[HALF], odd[HALF];
-	double coefficient[LANES];
-	memset(out, 0, sizeof coefficient);
+	static const long long no_sign = 0x7fffffffffffffff;
+	lanes sum = { 0 };
 	for (int j = 0; j < HALF; j++) {
 		lanes a, b;
 		memcpy(&a, v[j], sizeof a);
@@ -152,8 +153,7 @@ WIDE void level_sample_sums(const struct proof_tables *table, const double v[NOD
 		lanes a = { 0 };
 		for (int j = 0; j < HALF; j++)
 			a += x[j] * table->cosine[k][j];
-		memcpy(coefficient, &a, sizeof a);
-		for (int d = 0; d < LANES; d++)
-			out[d] += fabs(coefficient[d]);
+		sum += (lanes)((bits)a & no_sign);
 	}
+	memcpy(out, &sum, sizeof sum);
 }
