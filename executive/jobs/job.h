@@ -24,6 +24,7 @@ struct pool {
 	int64_t memory_mib;        /* of jobs with a process */
 	int64_t room_mib;          /* that blocked found on its disk and were too few; -1 */
 	int64_t wanted_mib;        /* instead of those */
+	int64_t promised_mib;      /* in that: to jobs that run */
 };
 
 /* What the jobs of a worker took, for those of which no progress is known yet. */
@@ -63,6 +64,9 @@ struct job {
 	bool exited, drained;   /* both true: the job has ended */
 	bool greeted, finished; /* HELLO came, DONE came */
 	bool stopping;          /* SIGSTOP sent, not seen yet */
+	uint64_t disks[ROOMS];  /* that it writes to */
+	int n_disks;
+	int64_t promised_mib; /* on each of them; 0: not known what it will write */
 	struct launcher_exit exit;
 	enum job_cause cause;
 	enum ending step;

@@ -97,18 +97,40 @@ static bool memory_free(const struct queue *q, const struct job *job)
 	return !is_here(job) || !limit || !wants || !used || used + wants <= limit;
 }
 
-/* Is there room for what it makes? Looked at only when it could start otherwise. */
+/* What jobs that run will still write there. The part file that one has begun makes way for its output,
+ * so until that is there all of it is to come. */
+static int64_t room_promised(const struct queue *q, uint64_t disk)
+{
+	int64_t mib = 0;
+	for (int i = 0; i < q->n_active; i++)
+		for (int k = 0; k < q->active[i]->n_disks; k++)
+			if (q->active[i]->disks[k] == disk)
+				mib += q->active[i]->promised_mib;
+	return mib;
+}
+
+/* Is there room for what it makes, beside what the others make? Looked at only when it could start
+ * otherwise. */
 static bool disk_free(struct queue *q, struct pool *pool, struct job *job)
 {
 	int64_t floor = q->limits.disk_floor_mib;
-	int64_t wanted = floor + (history_bytes(job) + MIB - 1) / MIB;
-	int64_t mib = floor && q->ports.room ? q->ports.room(q->ports.room_data, &job->stats) : -1;
-	if (mib < 0 || mib >= wanted)
-		return true;
-	pool->room_mib = mib;
-	pool->wanted_mib = wanted;
-	q->look_at = queue_now(q) + look_s;
-	return false;
+	struct room at[ROOMS];
+	job->n_disks =
+	        floor && q->ports.room ? q->ports.room(q->ports.room_data, &job->stats, at) : 0;
+	job->promised_mib = job->n_disks ? (history_bytes(job) + MIB - 1) / MIB : 0;
+	for (int i = 0; i < job->n_disks; i++) {
+		int64_t promised = room_promised(q, at[i].disk);
+		int64_t wanted = floor + job->promised_mib + promised;
+		job->disks[i] = at[i].disk;
+		if (at[i].mib >= wanted)
+			continue;
+		pool->room_mib = at[i].mib;
+		pool->wanted_mib = wanted;
+		pool->promised_mib = promised;
+		q->look_at = queue_now(q) + look_s;
+		return false;
+	}
+	return true;
 }
 
 static bool active_room(struct queue *q)
@@ -269,6 +291,18 @@ static void reason_after(struct job *job)
 	job_reason(job, "after %s%s", list, shown < job->unsettled ? ", ..." : "");
 }
 
+static void reason_room(struct job *job, const struct pool *pool)
+{
+	char running[64] = "";
+	if (pool->promised_mib)
+		snprintf(running, sizeof running, ", %lld of these by jobs that run",
+		         (long long)pool->promised_mib);
+	bool like = pool->wanted_mib > pool->promised_mib + job->q->limits.disk_floor_mib;
+	job_reason(job, "disk: %lld MiB left where it writes, %lld wanted%s%s; make room",
+	           (long long)pool->room_mib, (long long)pool->wanted_mib,
+	           like ? " by what its like took" : "", running);
+}
+
 void line_reason(struct job *job)
 {
 	const struct queue *q = job->q;
@@ -291,10 +325,7 @@ void line_reason(struct job *job)
 		           (long long)pool->memory_mib, (long long)q->limits.memory_mib,
 		           (long long)job_memory_mib(job));
 	else if (pool->blocked == job && pool->room_mib >= 0)
-		job_reason(job, "disk: %lld MiB left where it writes, %lld wanted%s; make room",
-		           (long long)pool->room_mib, (long long)pool->wanted_mib,
-		           pool->wanted_mib > q->limits.disk_floor_mib ? " by what its like took"
-		                                                       : "");
+		reason_room(job, pool);
 	else if (pool->blocked)
 		job_reason(job, "behind job %lld", (long long)pool->blocked->stats.id);
 	else

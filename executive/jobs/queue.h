@@ -33,6 +33,13 @@ struct queue_limits {
 	double cancel_grace, term_grace, hello_grace, end_grace; /* seconds */
 };
 
+/* A disk that a job writes to, and the MiB free on it. Output and part file may lie on two. */
+enum { ROOMS = 2 };
+struct room {
+	uint64_t disk;
+	int64_t mib;
+};
+
 struct queue_ports {
 	const struct launcher *launcher;
 	const struct ledger *ledger;
@@ -43,8 +50,8 @@ struct queue_ports {
 	/* A job has changed, and the change is in the ledger; s is borrowed. */
 	void (*told)(void *data, const struct Stats *s);
 	void *told_data;
-	/* MiB free where a job writes, -1: not known. NULL: nobody looks. */
-	int64_t (*room)(void *data, const struct Stats *s);
+	/* The disks a job writes to, how many: 0 where it is not known. NULL: nobody looks. */
+	int (*room)(void *data, const struct Stats *s, struct room at[ROOMS]);
 	/* Bytes of the files it made, -1: not known. NULL: nobody looks. */
 	int64_t (*size)(void *data, const struct Stats *s);
 	/* A job's process is gone before its time: take away what it left half written. NULL: nobody

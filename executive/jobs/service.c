@@ -42,24 +42,28 @@ static double clock_date(void *data)
 	return (double)(t.tv_sec * 1000 + t.tv_nsec / 1000000) / 1e3;
 }
 
-/* MiB free in the folder that holds the path, -1: not known. */
-static int64_t room_at(const char *path)
+/* The disk of the folder that holds the path; false: not known. */
+static bool room_at(const char *path, struct room *out)
 {
 	struct statvfs v;
+	struct stat s;
 	char *folder = path_folder(path);
-	int n = folder ? statvfs(folder, &v) : -1;
+	bool known = folder && !statvfs(folder, &v) && !stat(folder, &s);
 	free(folder);
-	if (n || !v.f_blocks) /* one of no blocks is no disk: /proc */
-		return -1;
-	return (int64_t)((double)v.f_bavail * (double)v.f_frsize / (1 << 20));
+	if (!known || !v.f_blocks) /* one of no blocks is no disk: /proc */
+		return false;
+	out->disk = s.st_dev;
+	out->mib = (int64_t)((double)v.f_bavail * (double)v.f_frsize / (1 << 20));
+	return true;
 }
 
 /* Outputs go to one place, part files and logs to another. */
-static int64_t room_left(void *data, const struct Stats *job)
+static int room_left(void *data, const struct Stats *job, struct room at[ROOMS])
 {
 	const struct server *s = data;
-	int64_t there = job->output ? room_at(job->output) : -1, here = room_at(s->project->hidden);
-	return here < 0 || (there >= 0 && there < here) ? there : here;
+	int n = job->output && room_at(job->output, &at[0]);
+	n += room_at(s->project->hidden, &at[n]);
+	return n == 2 && at[0].disk == at[1].disk ? 1 : n;
 }
 
 static int64_t output_size(void *data, const struct Stats *job)

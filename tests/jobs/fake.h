@@ -23,6 +23,7 @@ struct fake {
 		json_t *record;
 		bool front, killed;
 	} rows[FAKE_ROWS]; /* the ledger, by id */
+	uint64_t disk;     /* that jobs write to */
 	int64_t room;      /* MiB on the disk; -1: not known */
 	int64_t size;      /* bytes of what a job made; -1: not known */
 	int64_t last;

@@ -126,6 +126,45 @@ static void no_job_starts_where_its_like_would_not_fit(void **state)
 	assert_int_equal(fake_state(f, third), JOB_STARTING);
 }
 
+static void room_is_promised_to_those_that_run(void **state)
+{
+	struct fake *f = *state;
+	f->limits.disk_floor_mib = 64;
+	f->limits.jobs = 3;
+	f->room = 1000;
+	f->size = 100 << 20;
+	fake_restart(f);
+	fake_success(f, fake_submit(f, 0, 1, 0));
+	/* room for two of its like, not for three */
+	f->room = 64 + 2 * 100 + 99;
+	int64_t a = fake_submit(f, 0, 1, 0), b = fake_submit(f, 0, 1, 0),
+	        c = fake_submit(f, 0, 1, 0);
+	assert_int_equal(fake_state(f, a), JOB_STARTING);
+	assert_int_equal(fake_state(f, b), JOB_STARTING);
+	assert_int_equal(fake_state(f, c), JOB_QUEUED);
+	assert_string_equal(fake_reason(f, c),
+	                    "disk: 363 MiB left where it writes, 364 wanted by what its like took, "
+	                    "200 of these by jobs that run; make room");
+	/* a suspended one goes on some day */
+	fake_hello(f, a);
+	fake_event(f, a, EV_SUSPEND);
+	fake_stopped(f, a, true);
+	fake_wait(f, 2);
+	assert_int_equal(fake_state(f, c), JOB_QUEUED);
+	/* what one has written it needs no more */
+	f->room -= 100;
+	fake_success(f, b);
+	fake_wait(f, 2);
+	assert_int_equal(fake_state(f, c), JOB_QUEUED);
+	f->room += 1;
+	fake_wait(f, 1);
+	assert_int_equal(fake_state(f, c), JOB_STARTING);
+	/* nothing is promised on another disk */
+	f->disk = 1;
+	int64_t d = fake_submit(f, 0, 1, 0);
+	assert_int_equal(fake_state(f, d), JOB_STARTING);
+}
+
 static void any_end_is_waited_for(void **state)
 {
 	struct fake *f = *state;
@@ -290,6 +329,7 @@ int main(void)
 		T(a_job_that_ends_in_time_is_left_alone),
 		T(no_job_starts_without_room),
 		T(no_job_starts_where_its_like_would_not_fit),
+		T(room_is_promised_to_those_that_run),
 		T(any_end_is_waited_for),
 		T(the_top_is_before_all_others),
 		T(a_held_queue_lets_what_has_begun_end),
