@@ -425,8 +425,7 @@ static bool prune_page(struct request *q, const struct report *r)
 	int first = q->at_list, n = 0;
 	for (; q->at_list < q->n_list && n < PRUNE_PAGE; q->at_list++) {
 		int64_t id = q->list[q->at_list];
-		const struct Stats *s = queue_find(jobs, id);
-		if (!s || !job_state_table[s->state].over)
+		if (queue_holds(jobs, id) && !job_state_table[queue_find(jobs, id)->state].over)
 			continue;
 		session_send_record(q->session, q->id, id, false);
 		q->list[first + n++] = id;
@@ -531,8 +530,10 @@ static bool request_met(struct request *q, const struct request_row *row)
 	if (q->type == MESSAGE_WATCH && q->stay)
 		return false;
 	for (; q->jobs && q->at < q->n; q->at++) {
-		const struct Stats *s = queue_find(jobs, q->jobs[q->at]);
-		if (s && !row->wanted(s->state))
+		/* one that is not in memory has ended, and more than that nobody waits for */
+		if (!queue_holds(jobs, q->jobs[q->at]))
+			continue;
+		if (!row->wanted(queue_find(jobs, q->jobs[q->at])->state))
 			return false;
 	}
 	for (int i = 0; !q->jobs && i < queue_count(jobs); i++) {
