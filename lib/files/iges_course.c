@@ -131,19 +131,6 @@ static enum status composite(struct iges *g, int de, int depth, struct iges_cour
 	return st;
 }
 
-/* An ellipse is an arc whose angle is that of its half axes, from 0 to 2 pi at its start. Parabolas
- * and hyperbolas are one piece from 0 to 1: even for those; for these only the ends agree. */
-static enum status conic(const struct curve *c, struct iges_course *out)
-{
-	if (c->n == 3 && c->domain[0] == 0 && c->domain[1] == 1)
-		return add_stretch(out, 0, 1, 0, 1, 0);
-	enum status st = iges_course_angle(c->knots, c->n, out);
-	for (int i = 0; i < out->n && c->domain[0] < 0; i++)
-		for (int k = 0; k < 2; k++)
-			out->stretches[i].file[k] += 2 * M_PI;
-	return st;
-}
-
 static enum status course_of(struct iges *g, int de, int depth, struct iges_course *out)
 {
 	struct curve c;
@@ -155,10 +142,9 @@ static enum status course_of(struct iges *g, int de, int depth, struct iges_cour
 	enum status st = iges_curve(g, de, depth, &c, NULL);
 	if (st != ST_OK)
 		return st;
-	if (e->type == 100)
+	/* of conics, ellipses and hyperbolas run by an angle, parabolas evenly */
+	if (e->type == 100 || (e->type == 104 && c.rational))
 		st = iges_course_angle(c.knots, c.n, out);
-	else if (e->type == 104)
-		st = conic(&c, out);
 	else
 		st = add_stretch(out, c.domain[0], c.domain[1] - c.domain[0], c.domain[0],
 		                 c.domain[1], 0);

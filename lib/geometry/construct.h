@@ -23,7 +23,9 @@ enum status make_polyline(struct curve *out, const struct vec3 *p, int n);
 
 /* Conic A x^2 + B xy + C y^2 + D x + E y + F = 0 in the plane z = zt, from p to q
  * (IGES 104): an ellipse counterclockwise about +z, the whole of it where p and q are one point;
- * p and q must lie on the conic, on one branch of a hyperbola. z of p and q is not used. */
+ * p and q must lie on the conic, on one branch of a hyperbola. z of p and q is not used.
+ * Parameters are the standard's: of a parabola the coordinate across its axis; of an ellipse the angle of
+ * its half axes and of a hyperbola that of secant and tangent, as arcs have theirs (make_arc). */
 enum status make_conic(struct curve *out, const double coefficients[6], double zt, struct vec3 p,
                        struct vec3 q, const struct report *r);
 

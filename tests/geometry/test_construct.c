@@ -144,6 +144,101 @@ static void test_conic(void **state)
 	assert_int_equal(said.n_errors, 5);
 }
 
+/* Parameters of conics in standard position, as IGES 5.3 has them: the range, and the point at t, which
+ * where t is an angle is met at the ends and in the middle of one piece. */
+static void conics_run_as_the_standard_has_it(void **state)
+{
+	(void)state;
+	const double r = 1 / sqrt(2), far = atan(100), wide = 1.4;
+	const struct {
+		double k[6];
+		struct vec3 p, q;
+		double domain[2];
+		double t;
+		struct vec3 at;
+	} rows[] = {
+		/* x^2/9 + y^2/4 = 1: angles from 0 to 2 pi */
+		{ { 4, 0, 9, 0, 0, -36 },
+		  { 0, -2, 0 },
+		  { 3, 0, 0 },
+		  { 1.5 * M_PI, 2 * M_PI },
+		  1.75 * M_PI,
+		  { 3 * r, -2 * r, 0 } },
+		/* y = x^2 / 2, both ways; x = 2 y^2 */
+		{ { 1, 0, 0, 0, -2, 0 }, { -1, 0.5, 0 }, { 3, 4.5, 0 }, { -1, 3 }, 2, { 2, 2, 0 } },
+		{ { 1, 0, 0, 0, -2, 0 },
+		  { 3, 4.5, 0 },
+		  { -1, 0.5, 0 },
+		  { -3, 1 },
+		  -2,
+		  { 2, 2, 0 } },
+		{ { 0, 0, -2, 1, 0, 0 },
+		  { 8, 2, 0 },
+		  { 2, 1, 0 },
+		  { -2, -1 },
+		  -1.5,
+		  { 4.5, 1.5, 0 } },
+		/* x^2/9 - y^2/4 = 1: 3 sec t, 2 tan t; up, down, the left branch, far out */
+		{ { 4, 0, -9, 0, 0, -36 },
+		  { 3, 0, 0 },
+		  { 3 / r, 2, 0 },
+		  { 0, M_PI / 4 },
+		  M_PI / 8,
+		  { 3 / cos(M_PI / 8), 2 * tan(M_PI / 8), 0 } },
+		{ { -4, 0, 9, 0, 0, 36 },
+		  { 3 / r, 2, 0 },
+		  { 3, 0, 0 },
+		  { -M_PI / 4, 0 },
+		  -M_PI / 8,
+		  { 3 / cos(M_PI / 8), 2 * tan(M_PI / 8), 0 } },
+		{ { 4, 0, -9, 0, 0, -36 },
+		  { -3, 0, 0 },
+		  { -3 / r, 2, 0 },
+		  { M_PI, 1.25 * M_PI },
+		  1.125 * M_PI,
+		  { -3 / cos(M_PI / 8), 2 * tan(M_PI / 8), 0 } },
+		{ { 4, 0, -9, 0, 0, -36 },
+		  { -3 / r, 2, 0 },
+		  { -3, 0, 0 },
+		  { -1.25 * M_PI, -M_PI },
+		  -1.125 * M_PI,
+		  { -3 / cos(M_PI / 8), 2 * tan(M_PI / 8), 0 } },
+		{ { 4, 0, -9, 0, 0, -36 },
+		  { 3 / cos(far), -200, 0 },
+		  { 3 / cos(far), 200, 0 },
+		  { -far, far },
+		  far / 2,
+		  { 3 / cos(far / 2), 2 * tan(far / 2), 0 } },
+		/* y^2/4 - x^2/9 = 1: 3 tan t, 2 sec t; rightwards, leftwards below */
+		{ { -4, 0, 9, 0, 0, -36 },
+		  { 0, 2, 0 },
+		  { 3 * tan(wide), 2 / cos(wide), 0 },
+		  { 0, wide },
+		  wide / 2,
+		  { 3 * tan(wide / 2), 2 / cos(wide / 2), 0 } },
+		{ { -4, 0, 9, 0, 0, -36 },
+		  { 3, -2 / r, 0 },
+		  { 0, -2, 0 },
+		  { -1.25 * M_PI, -M_PI },
+		  -1.125 * M_PI,
+		  { 3 * tan(M_PI / 8), -2 / cos(M_PI / 8), 0 } },
+	};
+	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+		struct curve c;
+		assert_int_equal(make_conic(&c, rows[i].k, 0, rows[i].p, rows[i].q, NULL), ST_OK);
+		check_curve(&c);
+		for (int k = 0; k < 2; k++)
+			if (!(fabs(c.domain[k] - rows[i].domain[k]) < 1e-14))
+				fail_msg("row %zu: domain %.17g %.17g", i, c.domain[0],
+				         c.domain[1]);
+		const struct vec3 at = curve_point(&c, rows[i].t);
+		if (!(distance(at, rows[i].at) < 1e-13 * (1 + vec3_length(rows[i].at))))
+			fail_msg("row %zu: %.17g %.17g, expected %.17g %.17g", i, at.x, at.y,
+			         rows[i].at.x, rows[i].at.y);
+		curve_finish(&c);
+	}
+}
+
 static double power(const double a[4], double t)
 {
 	return a[0] + t * (a[1] + t * (a[2] + t * a[3]));
@@ -437,10 +532,15 @@ static void test_bodies(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_lines),         cmocka_unit_test(test_arc),
-		cmocka_unit_test(test_conic),         cmocka_unit_test(test_power_curve),
-		cmocka_unit_test(test_power_surface), cmocka_unit_test(test_composite),
-		cmocka_unit_test(test_ruled),         cmocka_unit_test(test_swept),
+		cmocka_unit_test(test_lines),
+		cmocka_unit_test(test_arc),
+		cmocka_unit_test(test_conic),
+		cmocka_unit_test(conics_run_as_the_standard_has_it),
+		cmocka_unit_test(test_power_curve),
+		cmocka_unit_test(test_power_surface),
+		cmocka_unit_test(test_composite),
+		cmocka_unit_test(test_ruled),
+		cmocka_unit_test(test_swept),
 		cmocka_unit_test(test_bodies),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
