@@ -252,6 +252,9 @@ void desk_set_page(struct desk *d, enum page page)
 	d->page = page;
 	d->page_scroll = 0;
 	d->help_scroll = 0;
+	d->help_link = -1;
+	if (page == PAGE_JOBS)
+		d->slots = 0; /* looked up anew */
 	desk_dirty(d, desk_bit(PART_PAGE) | desk_bit(PART_FOOT) | desk_bit(PART_MOUSE) |
 	                      desk_bit(PART_MENU) | desk_bit(PART_TOP));
 }

@@ -204,6 +204,7 @@ static bool check_all(struct desk *d)
 		return true;
 	char *kept = a->error[bad];
 	a->focus = bad;
+	typed_place(&a->field[bad], (int)argument_wrong_at(&a->rows[bad], a->field[bad].s));
 	desk_ask_candidates(d);
 	desk_say(d, REPORT_ERROR, "%s: %s.", a->rows[bad].prompt, kept);
 	desk_ask_dirty(d);

@@ -36,16 +36,41 @@ static const char *note_of(struct scraps *s, const struct colormap *m)
 	                    m->arsinh ? "arsinh" : "linear");
 }
 
+static const char *const symbol[N_QUANTITIES] = { "K", "H", "|k|", "k max", "k min", "k u", "k v" };
+
+/* The surface is to show values, and those it had belong to what it was. */
+static void paint_no_values(struct desk *d, cairo_t *cr)
+{
+	const struct Ful *f = world_current(d->world, false);
+	struct key_model m = { .title = "", .note = "", .unit = "" };
+
+	if (!f || f->display.look != LOOK_MAP || !f->display.on)
+		return;
+	m.symbol = symbol[d->quantity];
+	m.button = "CALCULATE";
+	panel_key(cr, &d->layout.view, &m, &d->look, &d->hits[PART_OVER]);
+}
+
+/* Its button. */
+void desk_key_calculate(struct desk *d)
+{
+	char code[16];
+
+	snprintf(code, sizeof code, "V%d", 80 + (int)d->quantity);
+	desk_run_code(d, world_sight(d->world)->all_curvatures ? "V79" : code, NULL, NULL);
+}
+
 void desk_paint_keys(struct desk *d, cairo_t *cr, struct scraps *s)
 {
-	static const char *const symbol[N_QUANTITIES] = { "K",     "H",   "|k|", "k max",
-		                                          "k min", "k u", "k v" };
 	const struct overlay *o = shown_map(d);
 	struct key_model m = { .title = "", .note = "", .symbol = "", .unit = "" };
 	struct key k;
 
-	if (!o)
+	if (!o) {
+		paint_no_values(d, cr);
 		return;
+	}
+	d->quantity = o->quantity;
 	/* of seven views the key is that of the one with the keyboard, in the place of an eighth */
 	bool seven = d->n_tiles == N_QUANTITIES;
 	enum quantity q = seven ? (enum quantity)d->tile : o->quantity;

@@ -99,6 +99,7 @@ struct desk {
 	enum page page, under; /* under: comes back when this one is closed */
 	int page_scroll;
 	double help_scroll;
+	int help_link; /* with the focus, -1: none */
 	char help_code[8];
 	struct typed search;
 	const struct Menu_Entry *found[FOUND_MAX]; /* best first */
@@ -119,6 +120,7 @@ struct desk {
 		enum job_state state;
 	} * seen; /* owned; states the user was told of */
 	int n_seen, seen_cap;
+	int slots;      /* jobs that may run at once; 0: not looked up yet */
 	bool caught_up; /* the first records came: what is over now is no news */
 
 	/* views */
@@ -149,6 +151,7 @@ struct desk {
 	double hue, saturation, value; /* of the color tool */
 	enum hit_kind card_kind;       /* of a DRAG_CARD */
 	int card_index;
+	enum quantity quantity;              /* of the map shown last */
 	struct colormap key_map, key_before; /* as shown; when an end was taken */
 	double key_px;
 	bool point_moved, weighing; /* weighing: its weight is dragged, not its place */
@@ -252,7 +255,8 @@ void desk_search_take(struct desk *d, int k, bool go);
 /* desk_pages.c: help, keys, messages, questions */
 void desk_help_for(struct desk *d, const char *code);
 void desk_help_here(struct desk *d);
-bool desk_page_key(struct desk *d, enum desk_key key);
+bool desk_page_key(struct desk *d, enum desk_key key, unsigned mods);
+int desk_page_last(struct desk *d); /* the furthest that a list can be scrolled */
 void desk_question(struct desk *d, const struct question *q); /* strings are moved in */
 void desk_answer_question(struct desk *d, int button);
 bool desk_question_text(struct desk *d, uint32_t c);
@@ -333,6 +337,7 @@ void desk_paint_probe(struct desk *d, cairo_t *cr);
 void desk_paint_keys(struct desk *d, cairo_t *cr, struct scraps *s);
 bool desk_key_press(struct desk *d, const struct hit *h); /* an end of a color key */
 void desk_key_move(struct desk *d);
+void desk_key_calculate(struct desk *d);
 void desk_key_keep(struct desk *d); /* the end was let go: it goes into the journal */
 
 /* scraps.c */

@@ -123,7 +123,7 @@ void desk_key(struct desk *d, enum desk_key key, unsigned mods)
 		}
 		return;
 	}
-	if (everywhere(d, key, mods) || (d->page != PAGE_NONE && desk_page_key(d, key)))
+	if (everywhere(d, key, mods) || (d->page != PAGE_NONE && desk_page_key(d, key, mods)))
 		return;
 	bool done = false;
 	if (d->page == PAGE_SEARCH)

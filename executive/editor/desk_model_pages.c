@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "desk_inside.h"
+#include "parallel.h"
+#include "settings.h"
 
 /* ------------------------------------------------------------ jobs */
 
@@ -46,6 +48,37 @@ static void count_tabs(struct desk *d)
 	d->job_tab = tab;
 }
 
+static int count_in_slots(const struct desk *d)
+{
+	int n = 0;
+
+	for (int i = 0; i < d->shelf.n; i++) {
+		const enum job_state state = d->shelf.jobs[i].state;
+		n += state == JOB_STARTING || state == JOB_RUNNING || state == JOB_ENDING;
+	}
+	return n;
+}
+
+/* As many as the project's settings allow. */
+static int slots_of(const struct settings *s)
+{
+	const int jobs = (int)settings_number(s, SETTING_JOBS), processors = parallel_processors();
+
+	return jobs > 0 ? jobs : processors > 4 ? processors : 4;
+}
+
+static const char *slots_text(struct desk *d, struct scraps *s)
+{
+	struct settings all = { 0 };
+
+	if (!d->slots && settings_read(&all, d->house.project, &report_none) == ST_OK)
+		d->slots = slots_of(&all);
+	settings_finish(&all);
+	if (d->slots <= 0)
+		return scraps_print(s, "%d running", count_in_slots(d));
+	return scraps_print(s, "%d of %d job slots in use", count_in_slots(d), d->slots);
+}
+
 void desk_fill_jobs(struct desk *d)
 {
 	static const enum message_type type[5] = { MESSAGE_SUSPEND, MESSAGE_ACTIVATE, MESSAGE_KILL,
@@ -74,7 +107,7 @@ void desk_fill_jobs(struct desk *d)
 			             desk_job_can(rows[i], type[k]);
 	}
 	count_tabs(d);
-	m->slots = scraps_print(s, "%d active, %d waiting", m->count[1], m->count[2]);
+	m->slots = slots_text(d, s);
 	m->log_title = log_title(d, s);
 	log_lines(d, s);
 }

@@ -100,6 +100,8 @@ static void click_button(struct desk *d, const struct hit *h, enum desk_part par
 		desk_ask_defaults(d);
 	else if (part == PART_CARD)
 		click_empty(d, h);
+	else if (part == PART_OVER && h->part == GROUP_KEY)
+		desk_key_calculate(d);
 }
 
 /* A link of the page, help on this menu, or the page's cross. */
@@ -220,7 +222,7 @@ void desk_scroll(struct desk *d, double dy)
 	} else if (d->page == PAGE_HELP) {
 		d->help_scroll = fmax(0, d->help_scroll - 48 * dy);
 	} else if (d->page != PAGE_NONE) {
-		d->page_scroll = clamp(d->page_scroll - (int)(3 * dy), 0, d->n_messages - 1);
+		d->page_scroll = clamp(d->page_scroll - (int)(3 * dy), 0, desk_page_last(d));
 	} else if (in_box(&menu, d->x, d->y)) {
 		d->ask.scroll = clamp(d->ask.scroll - (dy > 0 ? 1 : -1), 0, d->ask.n - 1);
 		desk_dirty(d, desk_bit(PART_MENU));

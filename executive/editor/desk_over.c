@@ -335,7 +335,7 @@ const struct list_model *desk_list_model(struct desk *d)
 
 const struct keys_model *desk_keys_model(struct desk *d)
 {
-	d->keys = (struct keys_model){ desk_key_table, 0 };
+	d->keys = (struct keys_model){ .rows = desk_key_table, .scroll = d->page_scroll };
 	while (desk_key_table[d->keys.n].key)
 		d->keys.n++;
 	return &d->keys;

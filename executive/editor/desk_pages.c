@@ -1,4 +1,5 @@
 /* desk_pages.c - help, the sheet of keys, messages, and questions before loss of work. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -112,7 +113,50 @@ bool desk_question_text(struct desk *d, uint32_t c)
 
 /* ------------------------------------------------------------ keys of the pages */
 
-bool desk_page_key(struct desk *d, enum desk_key key)
+int desk_page_last(struct desk *d)
+{
+	if (d->page != PAGE_KEYS)
+		return d->n_messages - 1;
+	const struct keys_model *m = desk_keys_model(d);
+	const int room = panel_keys_rows(&d->layout.view, m);
+
+	return m->n > room ? m->n - room : 0;
+}
+
+/* Tab goes from one link of the page to the next, Enter follows it. */
+static bool link_key(struct desk *d, enum desk_key key, bool back)
+{
+	char code[8];
+	int n = 0;
+
+	while (panel_help_link(d->help.text, n, code, sizeof code))
+		n++;
+	if (key == KEY_ENTER && d->help_link >= 0 &&
+	    panel_help_link(d->help.text, d->help_link, code, sizeof code)) {
+		desk_help_for(d, code);
+		return true;
+	}
+	if (key != KEY_TAB || !n)
+		return false;
+	d->help_link =
+	        d->help_link < 0 ? (back ? n - 1 : 0) : (d->help_link + (back ? n - 1 : 1)) % n;
+	d->look.focus_kind = HIT_HELP_LINK;
+	d->look.focus_index = d->help_link;
+	d->look.focus_part = 0;
+	d->help_scroll = 1e9; /* they stand at the end; as far as there is something */
+	return true;
+}
+
+static void scroll_list(struct desk *d, int step)
+{
+	const int last = desk_page_last(d);
+
+	d->page_scroll += step;
+	d->page_scroll = d->page_scroll > last ? last : d->page_scroll;
+	d->page_scroll = d->page_scroll < 0 ? 0 : d->page_scroll;
+}
+
+bool desk_page_key(struct desk *d, enum desk_key key, unsigned mods)
 {
 	int step = key == KEY_UP          ? -1
 	           : key == KEY_DOWN      ? 1
@@ -123,16 +167,10 @@ bool desk_page_key(struct desk *d, enum desk_key key)
 	if (d->page == PAGE_QUESTION)
 		return true; /* by its letters alone, so that no Enter kills */
 	if (d->page == PAGE_HELP && step) {
-		d->help_scroll += 32 * step;
-		if (d->help_scroll < 0)
-			d->help_scroll = 0;
-	} else if (d->page == PAGE_MESSAGES && step) {
-		d->page_scroll += step;
-		if (d->page_scroll >= d->n_messages)
-			d->page_scroll = d->n_messages - 1;
-		if (d->page_scroll < 0)
-			d->page_scroll = 0;
-	} else {
+		d->help_scroll = fmax(0, d->help_scroll + 32 * step);
+	} else if ((d->page == PAGE_MESSAGES || d->page == PAGE_KEYS) && step) {
+		scroll_list(d, step);
+	} else if (d->page != PAGE_HELP || !link_key(d, key, mods & MOD_SHIFT)) {
 		return false;
 	}
 	desk_dirty(d, desk_bit(PART_PAGE));

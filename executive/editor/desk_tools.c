@@ -149,10 +149,11 @@ static void show_light(struct desk *d)
 	touch(d);
 }
 
-/* Azimuth goes round from the right, counterclockwise; incidence from the middle to the rim. */
+/* Azimuth goes round from the right, counterclockwise; incidence from straight above in the middle to
+ * straight below at the rim. */
 static void set_light(struct desk *d, double x, double y)
 {
-	double azimuth = atan2(-y, x) * 180 / M_PI, incidence = 90 * fmin(1, hypot(x, y));
+	double azimuth = atan2(-y, x) * 180 / M_PI, incidence = 180 * fmin(1, hypot(x, y));
 
 	desk_ask_set(d, "azimuth", "%.0f", azimuth < -0.5 ? azimuth + 360 : fabs(azimuth));
 	desk_ask_set(d, "incidence", "%.0f", incidence);

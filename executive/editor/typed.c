@@ -128,6 +128,13 @@ bool typed_right(struct typed *t)
 	return t->caret < t->n && go(t, after(t, t->caret));
 }
 
+void typed_place(struct typed *t, int byte)
+{
+	t->caret = byte < 0 ? 0 : byte > t->n ? t->n : byte;
+	while (t->caret > 0 && t->caret < t->n && ((unsigned char)t->s[t->caret] & 0xC0) == 0x80)
+		t->caret--;
+}
+
 bool typed_home(struct typed *t)
 {
 	return go(t, 0);

@@ -18,6 +18,8 @@ void typed_set(struct typed *t, const char *s); /* the caret goes to the end */
 bool typed_insert(struct typed *t, uint32_t character);
 void typed_insert_text(struct typed *t, const char *s);
 
+void typed_place(struct typed *t, int byte); /* the caret: before it, and before its character */
+
 /* True where something changed. */
 bool typed_backspace(struct typed *t);
 bool typed_backspace_word(struct typed *t);

@@ -116,6 +116,9 @@ void routine_state(const struct routine *t, const struct world *w, char out[48])
 /* Is that value right for that row? Errors: ST_PARAMETER: what it is, what is allowed. */
 enum status argument_check(const struct argument_row *row, const char *value, const struct world *w,
                            const struct report *r);
+/* Of a value that is wrong: the byte where it stops being the beginning of a right one; its length where
+ * that cannot be told, or what is wrong is the whole. */
+size_t argument_wrong_at(const struct argument_row *row, const char *value);
 /* Candidates that begin with (files: contain) `begin`, best first; a json array of strings. */
 json_t *argument_candidates(const struct argument_row *row, const char *begin, const struct act *a);
 

@@ -365,7 +365,7 @@ static const struct key_row key_rows[] = {
 	{ "F9", "show or hide the panel", false },
 	{ "F10", "dark or light", false },
 };
-const struct keys_model model_keys = { key_rows, N(key_rows) };
+const struct keys_model model_keys = { key_rows, N(key_rows), 0 };
 
 const struct color_model model_color = { 205, 0.30, 0.84, { 0.66, 0.71, 0.75 }, "Color of teapot" };
 const struct light_model model_light = { -118, 38, 0.8 };

@@ -167,6 +167,50 @@ static void help_is_of_what_is_under_the_mouse(void **state)
 	assert_int_equal(desk_list_model(s->desk)->n, 200);
 }
 
+static void links_of_help_are_followed_by_keys_and_mouse(void **state)
+{
+	struct stand *s = *state;
+
+	stand_type(s, "1");
+	stand_key(s, KEY_TAB);
+	stand_key(s, KEY_F1);
+	assert_string_equal(desk_help_model(s->desk)->code, "V175");
+	stand_key(s, KEY_ENTER); /* no link has the focus */
+	assert_string_equal(desk_help_model(s->desk)->code, "V175");
+	stand_key(s, KEY_TAB);
+	stand_key(s, KEY_ENTER);
+	char first[8];
+	snprintf(first, sizeof first, "%s", desk_help_model(s->desk)->code);
+	assert_string_not_equal(first, "V175");
+	stand_key(s, KEY_ESCAPE);
+	stand_key(s, KEY_F1);
+	stand_key(s, KEY_TAB); /* they stand below: now they are seen */
+	assert_non_null(stand_hit(s, HIT_HELP_LINK, 0, -1));
+	stand_click(s, HIT_HELP_LINK, 0);
+	assert_string_equal(desk_help_model(s->desk)->code, first);
+}
+
+static void the_sheet_of_keys_scrolls_where_it_is_cut(void **state)
+{
+	struct stand *s = *state;
+
+	desk_resize(s->desk, 640, 400, 1);
+	stand_type(s, "?");
+	const struct keys_model *m = desk_keys_model(s->desk);
+	const struct box_px b = desk_part_box(s->desk, PART_PAGE);
+	int room = panel_keys_rows(&b, m);
+	assert_true(room < m->n);
+	for (int k = 0; k < 100; k++)
+		stand_key(s, KEY_DOWN);
+	assert_int_equal(desk_keys_model(s->desk)->scroll, m->n - room);
+	desk_move(s->desk, 100, 200);
+	desk_scroll(s->desk, 50);
+	assert_int_equal(desk_keys_model(s->desk)->scroll, 0);
+	desk_resize(s->desk, 1280, 800, 1); /* all of it has room */
+	stand_key(s, KEY_PAGE_DOWN);
+	assert_int_equal(desk_keys_model(s->desk)->scroll, 0);
+}
+
 /* ------------------------------------------------------------ loss of work */
 
 static void quitting_asks_only_where_something_is_lost(void **state)
@@ -263,6 +307,8 @@ int main(void)
 		TEST(greyed_rows_say_why),
 		TEST(routines_are_found_by_name_code_and_help),
 		TEST(help_is_of_what_is_under_the_mouse),
+		TEST(links_of_help_are_followed_by_keys_and_mouse),
+		TEST(the_sheet_of_keys_scrolls_where_it_is_cut),
 		TEST(quitting_asks_only_where_something_is_lost),
 		TEST(a_long_errand_holds_the_world_and_can_be_stopped),
 		TEST(keys_of_the_window_paint_what_they_change),

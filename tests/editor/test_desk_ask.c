@@ -60,6 +60,34 @@ static void a_bad_field_keeps_its_text_and_says_why(void **state)
 	assert_int_equal(world_current(s->world, false)->display.lines_v, 8);
 }
 
+/* Where the caret goes: the first character that is wrong. */
+static void the_caret_goes_to_the_first_wrong_character(void **state)
+{
+	static const struct {
+		const char *code, *typed;
+		int field, caret;
+	} cases[] = {
+		{ "V57", "12x", 0, 2 },    { "V73", "0.5m", 0, 3 },     { "V58", "#12G456", 0, 3 },
+		{ "V185", "1,2,x", 0, 4 }, { "V173", "640x48O", 0, 6 },
+	};
+	struct stand *s = *state;
+
+	stand_add_plate(s, "plate");
+	for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+		stand_leaf(s, cases[k].code);
+		desk_key(s->desk, KEY_CTRL_A + 'U' - 'A', MOD_CTRL);
+		stand_type(s, cases[k].typed);
+		stand_key(s, KEY_ENTER);
+		if (!desk_menu_model(s->desk)->form_code)
+			fail_msg("%s took '%s'", cases[k].code, cases[k].typed);
+		const struct form_field *f = &desk_menu_model(s->desk)->fields[cases[k].field];
+		assert_true(f->error && f->focused);
+		assert_string_equal(f->value, cases[k].typed);
+		assert_int_equal(f->caret, cases[k].caret);
+		stand_key(s, KEY_ESCAPE);
+	}
+}
+
 static void names_are_completed_and_values_come_back(void **state)
 {
 	struct stand *s = *state;
@@ -131,6 +159,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		TEST(a_form_takes_utf8_and_runs),
 		TEST(a_bad_field_keeps_its_text_and_says_why),
+		TEST(the_caret_goes_to_the_first_wrong_character),
 		TEST(names_are_completed_and_values_come_back),
 		TEST(a_surface_asked_for_can_be_picked),
 		TEST(edits_are_undone_by_key),

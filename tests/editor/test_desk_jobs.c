@@ -7,6 +7,8 @@
 #include <cmocka.h>
 
 #include "desk_stand.h"
+#include "file.h"
+#include "path.h"
 
 static void jobs_are_picked_and_steered(void **state)
 {
@@ -47,6 +49,21 @@ static void jobs_are_picked_and_steered(void **state)
 	stand_type(s, "r");
 	assert_int_equal(s->asked, MESSAGE_RETRY);
 	assert_int_equal(s->ids[0], 3);
+}
+
+static void slots_are_counted(void **state)
+{
+	struct stand *s = *state;
+	char *path = path_join(s->project.hidden, "config");
+
+	assert_int_equal(file_write(path, "jobs = 7\n", 9, NULL), ST_OK);
+	stand_some_jobs(s);
+	stand_type(s, "j");
+	assert_string_equal(desk_jobs_model(s->desk)->slots, "1 of 7 job slots in use");
+	stand_put_job(s, 4, JOB_STARTING, NULL);
+	desk_jobs_changed(s->desk, LINK_UP, "");
+	assert_string_equal(desk_jobs_model(s->desk)->slots, "2 of 7 job slots in use");
+	free(path);
 }
 
 static void the_world_menu_steers_jobs(void **state)
@@ -94,6 +111,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		TEST(jobs_are_picked_and_steered),
+		TEST(slots_are_counted),
 		TEST(the_world_menu_steers_jobs),
 		TEST(news_of_jobs_is_told_once_with_the_bell),
 	};

@@ -190,11 +190,15 @@ static void the_light_is_dragged_live_and_taken_back(void **state)
 	desk_move(s->desk, x, y - quarter);
 	desk_press(s->desk, BUTTON_LEFT, 0);
 	assert_true(fabs(world_sight(s->world)->light_azimuth - 90) < 1);
-	assert_true(fabs(world_sight(s->world)->light_incidence - 45) < 1.5);
+	assert_true(fabs(world_sight(s->world)->light_incidence - 90) < 1.5); /* the horizon */
 	assert_string_equal(stand_field(s, "Azimuth")->value, "90");
 	desk_move(s->desk, x - quarter, y);
 	desk_release(s->desk, BUTTON_LEFT);
 	assert_true(fabs(world_sight(s->world)->light_azimuth - 180) < 1);
+	desk_move(s->desk, x - 2 * quarter + 1, y);
+	desk_press(s->desk, BUTTON_LEFT, 0); /* from below */
+	desk_release(s->desk, BUTTON_LEFT);
+	assert_true(world_sight(s->world)->light_incidence > 170);
 	stand_key(s, KEY_ESCAPE);
 	assert_true(world_sight(s->world)->light_azimuth == azimuth);
 	stand_leaf(s, "V73");
@@ -203,6 +207,35 @@ static void the_light_is_dragged_live_and_taken_back(void **state)
 	desk_release(s->desk, BUTTON_LEFT);
 	stand_key(s, KEY_ENTER);
 	assert_true(fabs(world_sight(s->world)->light_azimuth - 90) < 5);
+}
+
+/* A surface that is to show values and has none offers to compute them; of an image the heading tells. */
+static void what_is_shown_is_told(void **state)
+{
+	struct stand *s = *state;
+	int id = stand_add_plate(s, "plate");
+	struct display d = world_by_id(s->world, id)->display;
+
+	stand_key(s, KEY_HOME);
+	stand_paint(s);
+	assert_null(stand_hit(s, HIT_BUTTON, 0, GROUP_KEY));
+	d.look = LOOK_MAP;
+	assert_int_equal(world_set_display(s->world, id, &d), ST_OK);
+	desk_move(s->desk, 1, 1);
+	stand_paint(s);
+	assert_non_null(stand_hit(s, HIT_BUTTON, 0, GROUP_KEY));
+	s->keep_errands = true;
+	stand_click_with(s, HIT_BUTTON, 0, GROUP_KEY,
+	                 0); /* V80 shows, and computes what is not there */
+	assert_true(desk_world_lent(s->desk) ||
+	            desk_foot_model(s->desk)->level ==
+	                    REPORT_ERROR); /* no worker beside this test */
+	if (s->errand) {
+		assert_string_equal(errand_routine(s->errand)->code, "V80");
+		desk_key(s->desk, KEY_ESCAPE, 0);
+		errand_run(s->errand);
+		desk_errand_over(s->desk);
+	}
 }
 
 static void a_color_is_seen_while_it_is_chosen(void **state)
@@ -376,6 +409,7 @@ int main(void)
 		TEST(the_plane_of_parameters_is_a_view),
 		TEST(the_probe_is_kept_as_a_mark),
 		TEST(the_light_is_dragged_live_and_taken_back),
+		TEST(what_is_shown_is_told),
 		TEST(a_color_is_seen_while_it_is_chosen),
 		TEST(a_drag_of_a_point_is_one_step),
 		TEST(points_of_a_curve_on_a_surface_are_dragged_in_both_views),

@@ -134,7 +134,7 @@ static void paint_over(struct canvas *c, const struct layout *l, const struct wi
 	struct key_row keys[ROWS];
 	for (int i = 0; i < ROWS; i++)
 		keys[i] = (struct key_row){ w->text, w->text, i % 2 };
-	const struct keys_model sheet = { keys, ROWS };
+	const struct keys_model sheet = { keys, ROWS, 0 };
 	const struct color_model color = { x, x, x, { 0, 0, 0 }, w->text };
 	const struct light_model light = { x, x, x };
 	const struct bar_model bar = { REPORT_ERROR, w->text, w->text };

@@ -82,7 +82,9 @@ void paint_log(const struct paint *p, const struct box_px *b, const struct jobs_
 		times |= time_length(m->log[i]) > 0;
 	for (int i = 0; i < n; i++)
 		paint_log_line(p, b, m->log[first + i], times, b->y + HEAD + LINE * (i + 0.5));
+	const bool over =
+	        m->focus >= 0 && m->focus < m->n && job_state_table[m->jobs[m->focus]->state].over;
 	if (!m->n_log)
 		paint_text(p, LABEL_FORM, TOKEN_MUTED, b->x + PAINT_PADDING + 4, b->y + HEAD + 10,
-		           0, "Nothing has been written yet.");
+		           0, over ? "It wrote nothing." : "Nothing has been written yet.");
 }

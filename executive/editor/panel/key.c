@@ -25,6 +25,13 @@ void panel_key(cairo_t *cr, const struct box_px *view, const struct key_model *m
 		paint_plate(&p, x - 8, y, right - x, 42);
 		paint_text(&p, LABEL_HEADING, TOKEN_TEXT, x, y + 10, 0, key.symbol);
 		paint_text(&p, LABEL_NOTE, TOKEN_MUTED, x, y + 28, 0, "no values yet");
+		if (m->button) {
+			const struct button b = { .text = m->button,
+				                  .kind = HIT_BUTTON,
+				                  .part = GROUP_KEY };
+			paint_button(&p, right - PAINT_PADDING - paint_button_width(&p, &b), y + 48,
+			             &b);
+		}
 		return;
 	}
 	const double width = key_width(cr, &key), bar = y + key_bar_top();

@@ -1,4 +1,5 @@
-/* light.c - the card of the light: its direction on a dial, seen from above, and its intensity. */
+/* light.c - the card of the light: its direction on a dial, from straight above in the middle to straight
+ * below at the rim, and its intensity. */
 #include <math.h>
 #include <stdio.h>
 
@@ -11,13 +12,13 @@ static void paint_dial(const struct paint *p, double x, double y)
 	static const struct {
 		int degrees;
 		const char *text;
-	} rings[] = { { 30, "30°" }, { 60, "60°" }, { 90, NULL } };
+	} rings[] = { { 45, "45°" }, { 90, "90°" }, { 135, "135°" }, { 180, NULL } };
 	paint_rule(p, x - RADIUS, y, 2 * RADIUS);
 	paint_rule_down(p, x, y - RADIUS, 2 * RADIUS);
-	for (int i = 0; i < 3; i++) {
-		const double radius = RADIUS * rings[i].degrees / 90.0;
-		paint_circle(p, x, y, radius, rings[i].text ? 1 : 1.25,
-		             rings[i].text ? TOKEN_LINE : TOKEN_EDGE);
+	for (int i = 0; i < 4; i++) {
+		const double radius = RADIUS * rings[i].degrees / 180.0;
+		const bool strong = rings[i].degrees == 90 || !rings[i].text; /* the horizon */
+		paint_circle(p, x, y, radius, strong ? 1.25 : 1, strong ? TOKEN_EDGE : TOKEN_LINE);
 		if (rings[i].text)
 			paint_text(p, LABEL_RING, TOKEN_MUTED, x + radius - 3, y - 8, 1,
 			           rings[i].text);
@@ -35,14 +36,15 @@ void panel_light(cairo_t *cr, const struct box_px *b, const struct light_model *
 	const double left = b->x + EDGE, right = b->x + b->width - EDGE;
 	const double x = b->x + b->width / 2, y = b->y + DIAL_Y;
 	const double azimuth = isfinite(m->azimuth) ? m->azimuth * M_PI / 180 : 0;
-	const double away = fmin(fmax(m->incidence, 0), 90) / 90 * RADIUS;
+	const double away = fmin(fmax(m->incidence, 0), 180) / 180 * RADIUS;
 	const double at_x = x + away * cos(azimuth), at_y = y - away * sin(azimuth);
 	const double low = b->y + b->height - 26;
 	char text[32];
 	paint_card(&p, b->x, b->y, b->width, b->height, 8);
 	paint_hit(&p, HIT_NONE, 0, 0, b->x, b->y, b->width, b->height);
 	paint_text(&p, LABEL_HEADING, TOKEN_TEXT, left, b->y + 22, 0, "Light source");
-	paint_text(&p, LABEL_NOTE, TOKEN_MUTED, right, b->y + 22, 1, "from above");
+	paint_text(&p, LABEL_NOTE, TOKEN_MUTED, right, b->y + 22, 1,
+	           m->incidence > 90 ? "from below" : "from above");
 
 	paint_dial(&p, x, y);
 	paint_line(&p, x, y, at_x, at_y, 1.5, TOKEN_TEXT);

@@ -36,7 +36,7 @@ enum hit_kind {
 	HIT_SCROLL,    /* part: enum hit_group; the box is the track */
 	HIT_TIP,       /* a text that was cut; never given by hits_at */
 };
-enum hit_group { GROUP_FORM, GROUP_JOBS, GROUP_LIST, GROUP_EMPTY, GROUP_HELP };
+enum hit_group { GROUP_FORM, GROUP_JOBS, GROUP_LIST, GROUP_EMPTY, GROUP_HELP, GROUP_KEY };
 struct hit {
 	enum hit_kind kind;
 	int index, part; /* which row, and which part of it (a choice, an end) */
@@ -149,6 +149,7 @@ struct key_model { /* color key of a map at the view's right edge */
 	const char *title, *note, *symbol, *unit;
 	double below, above;
 	bool nothing;
+	const char *button; /* where there are no values: HIT_BUTTON 0 of GROUP_KEY; NULL: none */
 };
 struct jobs_model {
 	const struct Stats *const *jobs;
@@ -182,12 +183,12 @@ struct help_model {
 	const char *text;
 	double scroll; /* px; at most panel_help_scroll() has a meaning */
 };
-struct keys_model { /* the sheet of all keys */
+struct keys_model { /* the sheet of all keys; scroll: the first row shown */
 	const struct key_row {
 		const char *key, *does;
 		bool off;
 	} * rows;
-	int n;
+	int n, scroll;
 };
 struct color_model {
 	double hue, saturation, value; /* 0 to 360; 0 to 1 */
@@ -273,6 +274,7 @@ bool panel_help_link(const char *text, int index, char *code, size_t size);
 
 void panel_keys(cairo_t *cr, const struct box_px *b, const struct keys_model *m,
                 const struct look *k);
+int panel_keys_rows(const struct box_px *b, const struct keys_model *m); /* that have room */
 
 /* Cards. Their boxes beside each other in a layout: below each other where they fit. */
 void panel_cards_place(const struct layout *l, struct box_px *color, struct box_px *light);
