@@ -10,7 +10,9 @@
 #include <cmocka.h>
 
 #include "desk_stand.h"
+#include "file.h"
 #include "open.h"
+#include "path.h"
 
 enum { SEEDS = 3, EVENTS = 1000, PAINT_EACH = 8, MOUSE_WORD = 24 };
 
@@ -66,11 +68,20 @@ static void find_some(struct hand *h)
 
 	while (routine_table[n].code)
 		n++;
-	snprintf(code, sizeof code, "%s", routine_table[roll(h, (uint32_t)n)].code);
+	do
+		n = (int)roll(h, (uint32_t)n);
+	while (!routine_table[n].run && n);
+	snprintf(code, sizeof code, "%s", routine_table[n].code);
+	for (uint32_t k = roll(h, 4); k; k--)
+		desk_key(h->s->desk, KEY_ESCAPE, 0);
 	desk_key(h->s->desk, KEY_CTRL_A + 'K' - 'A', MOD_CTRL);
 	for (const char *p = code; *p; p++)
 		desk_text(h->s->desk, (unsigned char)*p);
 	desk_key(h->s->desk, KEY_ENTER, 0);
+	if (roll(h, 2))
+		type_some(h);
+	if (roll(h, 2))
+		desk_key(h->s->desk, KEY_ENTER, 0);
 }
 
 static void move_mouse(struct hand *h)
@@ -173,8 +184,8 @@ static void happen(struct hand *h)
 	static void (*const seldom[])(struct hand *) = { change_pick, change_jobs, drop_files,
 		                                         change_window };
 
-	h->s->keep_errands = !roll(h, 3);
-	if (h->s->errand && !roll(h, 6))
+	h->s->keep_errands = !roll(h, 8);
+	if (h->s->errand && !roll(h, 3))
 		finish_errand(h);
 	else if (roll(h, 6))
 		often[roll(h, 6)](h);
@@ -238,6 +249,20 @@ static void leave_all(struct hand *h)
 	assert_int_equal(desk_part_box(s->desk, PART_CARD).width > 0, !world_count(s->world));
 }
 
+static int journal_lines(const struct stand *s)
+{
+	char *path = path_join(s->project.hidden, "journal"), *text = NULL;
+	size_t bytes;
+	int n = 0;
+
+	if (file_read(path, 1 << 26, &text, &bytes, NULL) == ST_OK)
+		for (const char *p = text; *p; p++)
+			n += *p == '\n';
+	free(text);
+	free(path);
+	return n;
+}
+
 static void play(uint64_t seed)
 {
 	void *state;
@@ -254,6 +279,7 @@ static void play(uint64_t seed)
 			look(h.s);
 	}
 	leave_all(&h);
+	assert_true(journal_lines(h.s) >= n_events / 100); /* it got somewhere */
 	while (world_undo_name(h.s->world)) /* all that was done can be undone */
 		assert_int_equal(world_undo(h.s->world, NULL), ST_OK);
 	while (world_redo_name(h.s->world))
