@@ -6,6 +6,7 @@
 
 #include "file.h"
 #include "json.h"
+#include "level_wires.h"
 #include "lines_plan.h"
 
 static json_t *level_figures(const struct work *w, const struct contour_state *s, int i,
@@ -136,8 +137,16 @@ enum status contour_plan_write(void *data, const char *path, const struct report
 					                            .place = place };
 		}
 	}
-	struct lines_plan plan = { .surfaces = w->surfaces,
-		                   .n_surfaces = w->n_surfaces,
+	struct level_wires wires;
+	enum status st = level_wires_make(&wires, &s->level, w);
+	if (st != ST_OK) {
+		free(curves);
+		return report_error(r, st, "no memory to draw the lines plan");
+	}
+	struct lines_plan plan = { .surfaces = wires.surfaces,
+		                   .n_surfaces = wires.n_surfaces,
+		                   .borders = wires.lines.borders,
+		                   .n_borders = wires.lines.n_borders,
 		                   .sets = &s->sets,
 		                   .curves = curves,
 		                   .n_curves = n,
@@ -146,7 +155,8 @@ enum status contour_plan_write(void *data, const char *path, const struct report
 		                   .unit = w->file_unit };
 	if (plan.has_draught)
 		plan.draught = work_real(w, "draught");
-	enum status st = lines_plan_write(&plan, path, r);
+	st = lines_plan_write(&plan, path, r);
+	level_wires_finish(&wires);
 	free(curves);
 	return st;
 }

@@ -6,6 +6,7 @@
 
 #include "base.h"
 #include "json.h"
+#include "level_wires.h"
 #include "picture.h"
 
 enum { LABEL_SIZE = 32 };
@@ -309,15 +310,16 @@ enum status level_curves_draw(void *data, const char *path, const struct report 
 	const struct level_curves *c = data;
 	const struct work *w = c->work;
 	struct camera camera;
+	struct level_wires wires = { .n_surfaces = 0 };
 	size_t n = 0, at = 0;
 	for (int i = 0; i < c->n; i++)
 		for (int k = 0; k < w->n_surfaces; k++)
 			n += result_of(c, i, k)->n_branches;
 	struct picture_curve *curves = calloc(n + 1, sizeof *curves);
 	char *labels = calloc((size_t)c->n, LABEL_SIZE);
-	enum status st;
-	if (!curves || !labels)
-		st = report_error(r, ST_RESOURCE, "no memory to draw the curves");
+	enum status st = curves && labels ? level_wires_make(&wires, c->level, w) : ST_RESOURCE;
+	if (st != ST_OK)
+		st = report_error(r, st, "no memory to draw the curves");
 	else
 		st = camera_fit_surfaces(&camera, work_text(w, "view"), w->surfaces, w->n_surfaces,
 		                         1600, 1000, r);
@@ -325,13 +327,18 @@ enum status level_curves_draw(void *data, const char *path, const struct report 
 		for (int i = 0; i < c->n; i++)
 			at += curves_draw(c, i, labels + LABEL_SIZE * i, curves + at);
 		struct picture_lines lines = { .camera = &camera,
-			                       .surfaces = w->surfaces,
-			                       .n_surfaces = w->n_surfaces,
+			                       .surfaces = wires.surfaces,
+			                       .n_surfaces = wires.n_surfaces,
+			                       .wires = wires.lines.wires,
+			                       .borders = wires.lines.borders,
+			                       .n_wires = wires.lines.n_wires,
+			                       .n_borders = wires.lines.n_borders,
 			                       .curves = curves,
 			                       .n_curves = n,
 			                       .title = c->title };
 		st = picture_lines(path, PICTURE_SVG, &lines, THEME_LIGHT, r);
 	}
+	level_wires_finish(&wires);
 	free(labels);
 	free(curves);
 	return st;

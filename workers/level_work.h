@@ -15,7 +15,7 @@ struct level_work {
 	struct level_head *heads;   /* owned, n: what the units of each field begin with */
 	struct level_field *fields; /* owned, n */
 	double tolerance, gap;
-	bool trimmed; /* trims cut the curves */
+	bool trimmed;                 /* trims cut the curves */
 	struct level_faces *faces;    /* owned */
 	struct level_result *results; /* owned, n x n_surfaces; filled by level_work_join */
 	struct level_chains *chains;  /* owned, n; likewise */

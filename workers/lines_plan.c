@@ -337,6 +337,8 @@ static enum status borders_draw(struct drawing *d, int view)
 		for (int k = 0; st == ST_OK && k < 4; k++)
 			st = plan_border(s, &v->camera, d->plan->surfaces[i], k / 2, k % 2,
 			                 v->sides, v->n_sides);
+	for (size_t i = 0; st == ST_OK && i < d->plan->n_borders; i++)
+		st = plan_stroke(s, &v->camera, &d->plan->borders[i], v->sides, v->n_sides);
 	return st;
 }
 

@@ -18,6 +18,8 @@ struct plan_curve {
 struct lines_plan {
 	const struct surface **surfaces; /* their borders are drawn */
 	int n_surfaces;
+	const struct curve *borders; /* those of trimmed faces */
+	size_t n_borders;
 	const struct contour_sets *sets;
 	const struct plan_curve *curves; /* by rising value within a set */
 	size_t n_curves;

@@ -56,7 +56,9 @@ struct picture_lines {
 	int n_surfaces;
 	const struct picture_curve *curves;
 	size_t n_curves;
-	const char *title, *note; /* may be NULL */
+	const char *title, *note;            /* may be NULL */
+	const struct curve *wires, *borders; /* lines like the surfaces', of trimmed faces */
+	size_t n_wires, n_borders;
 };
 
 enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF };

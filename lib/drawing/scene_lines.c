@@ -146,6 +146,10 @@ enum status scene_lines_init(struct scene_lines *s, const struct picture_lines *
 	enum status st = ST_OK;
 	for (int i = 0; i < lines->n_surfaces && !st; i++)
 		st = add_surface(&s->lines[0], &s->lines[1], lines->camera, lines->surfaces[i]);
+	for (size_t i = 0; i < lines->n_wires && !st; i++)
+		st = stroke_add(&s->lines[0].stroke, lines->camera, &lines->wires[i], true);
+	for (size_t i = 0; i < lines->n_borders && !st; i++)
+		st = stroke_add(&s->lines[1].stroke, lines->camera, &lines->borders[i], true);
 	for (size_t i = 0; i < lines->n_curves && !st; i++) {
 		const struct picture_curve *c = &lines->curves[i];
 		struct scene_line *line = &s->lines[2 + i];

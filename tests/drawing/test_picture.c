@@ -248,7 +248,12 @@ static void test_lines(void **state)
 	const struct surface *surfaces[] = { &s };
 	struct picture_curve curves[] = { { &c, { 1, 0, 0 }, 1.5, "45° < \"60\" & more" },
 		                          { &c, { 0, 0, 1 }, 0.75, NULL } };
-	struct picture_lines lines = { &camera, surfaces, 1, curves, 2, "Isophotes", NULL };
+	struct picture_lines lines = { .camera = &camera,
+		                       .surfaces = surfaces,
+		                       .n_surfaces = 1,
+		                       .curves = curves,
+		                       .n_curves = 2,
+		                       .title = "Isophotes" };
 	char *path = name_in(state, "lines.tmp"), *a, *b;
 	size_t n_a, n_b;
 	assert_int_equal(picture_lines(path, PICTURE_SVG, &lines, THEME_LIGHT, NULL), ST_OK);

@@ -88,6 +88,36 @@ static void test_chords(void **state)
 	surface_finish(&s);
 }
 
+/* Lines to draw of a disk with a hole: circles about it, chords in it. */
+static void test_lines(void **state)
+{
+	(void)state;
+	struct surface s = shape_plane(1, 1);
+	struct trim t = { 0 };
+	struct level_lines x = { 0 };
+	struct level_faces *f;
+	trim_add_ellipse(&t, true, 0.5, 0.5, 0.4, 0.4, 0.3);
+	trim_add_ellipse(&t, false, 0.5, 0.5, 0.1, 0.1, 1);
+	assert_int_equal(level_faces_create(&f, &(struct level_face){ &s, &t }, 1, 1e-4), ST_OK);
+	assert_int_equal(level_face_lines(f, 0, 3, 1e-5, &x), ST_OK);
+	double borders = 0, wires = 0;
+	assert_int_equal(x.n_borders, 2);
+	for (size_t i = 0; i < x.n_borders; i++)
+		borders += curve_length(&x.borders[i], x.borders[i].domain[0],
+		                        x.borders[i].domain[1], 1e-6);
+	assert_true(fabs(borders - 2 * M_PI * 0.5) < 1e-3);
+	/* the middle ones in two, the others at a quarter of the square from it */
+	assert_int_equal(x.n_wires, 8);
+	for (size_t i = 0; i < x.n_wires; i++)
+		wires +=
+		        curve_length(&x.wires[i], x.wires[i].domain[0], x.wires[i].domain[1], 1e-6);
+	assert_true(fabs(wires - 2 * (0.6 + 4 * sqrt(0.16 - 0.0625))) < 1e-6);
+	level_lines_finish(&x);
+	level_faces_destroy(f);
+	trim_finish(&t);
+	surface_finish(&s);
+}
+
 /* Circles about the middle of the square, cut by a box: arcs by formula; closed ones over their start. */
 static void test_arcs(void **state)
 {
@@ -351,8 +381,9 @@ int main(void)
 
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_chords),  cmocka_unit_test(test_arcs),
-		cmocka_unit_test(test_along),   cmocka_unit_test(test_samples),
-		cmocka_unit_test(test_fitting), cmocka_unit_test(test_seam),
+		cmocka_unit_test(test_lines),   cmocka_unit_test(test_along),
+		cmocka_unit_test(test_samples), cmocka_unit_test(test_fitting),
+		cmocka_unit_test(test_seam),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

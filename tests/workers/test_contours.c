@@ -185,7 +185,19 @@ static void test_cylinders(void **state)
 	result_finish(&r);
 }
 
-/* Areas of stations and waterlines, whole hull and half hull: the same. */
+/* Length of y = breadth (1 - (t / extent)^2) for t from 0 to extent, by Simpson's rule. */
+static double parabola_length(double breadth, double extent)
+{
+	enum { STEPS = 2000 };
+	double sum = 0;
+	for (int i = 0; i <= STEPS; i++) {
+		const double slope = 2 * breadth / extent * i / STEPS;
+		sum += (i == 0 || i == STEPS ? 1 : i % 2 ? 4 : 2) * sqrt(1 + slope * slope);
+	}
+	return sum * extent / (3 * STEPS);
+}
+
+/* Areas and girths of stations and waterlines, whole hull and half hull: the same. */
 static void test_wigley(void **state)
 {
 	(void)state;
@@ -204,6 +216,8 @@ static void test_wigley(void **state)
 			assert_int_equal(json_int(o, "number", -1), i + 1);
 			expect_section(o, beam * part * draught * 2 / 3,
 			               vec3(x, 0, -3 * draught / 8), 1e-4);
+			near(json_number(o, "girth", NAN),
+			     2 * parabola_length(beam / 2 * part, draught), 1e-5);
 		}
 		for (int i = 0; i < 5; i++) {
 			const double z = -5 + i, part = 1 - z * z / (draught * draught);
@@ -211,6 +225,8 @@ static void test_wigley(void **state)
 			json_t *o = row(&r, 9 + i, "waterline", z, 1, f == 0);
 			assert_int_equal(json_int(o, "number", -1), i);
 			expect_section(o, beam * part * length * 2 / 3, vec3(0, 0, z), 1e-3);
+			near(json_number(o, "girth", NAN),
+			     4 * parabola_length(beam / 2 * part, length / 2), 1e-5);
 		}
 		row(&r, 14, "buttock", f == 0 ? beam / 4 : -beam / 4, 1, 0);
 		result_finish(&r);

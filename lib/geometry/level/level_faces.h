@@ -33,6 +33,20 @@ void level_faces_destroy(struct level_faces *f); /* NULL is fine */
 enum status level_clip(const struct level_faces *f, int i, double tolerance,
                        struct level_result *x);
 
+/* Lines of faces to be drawn, cubic B-splines in space. */
+struct level_lines {
+	struct curve *wires, *borders; /* owned */
+	size_t n_wires, n_borders;
+};
+
+/*
+ * Put face i's border and so many isoparametric lines in each direction, clipped, behind a zeroed or
+ * begun *out. tolerance: how near the curves are to be, by their middles. Errors: ST_RESOURCE.
+ */
+enum status level_face_lines(const struct level_faces *f, int i, int wires, double tolerance,
+                             struct level_lines *out);
+void level_lines_finish(struct level_lines *x); /* a zeroed one is fine */
+
 /* One branch in a chain. */
 struct level_part {
 	int face;

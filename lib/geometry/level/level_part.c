@@ -126,16 +126,17 @@ static void curve_put(struct curve *c, int *point, const double *p, int dim, int
 	}
 }
 
-static enum status branch_make(struct level_branch *out, const struct level_span *s, size_t n)
+enum status level_branch_of(struct level_branch *out, const struct level_span *s, size_t n)
 {
 	int cuts = 0;
 	for (size_t i = 1; i < n; i++)
 		cuts += s[i].cut;
+	out->uv = out->space = (struct curve){ .n = 0 };
 	enum status st = curve_init(&out->uv, 4, (int)(3 * n + 1) + cuts);
 	if (st == ST_OK)
 		st = curve_init(&out->space, 4, (int)(3 * n + 1) + cuts);
 	if (st != ST_OK)
-		return st;
+		goto fail;
 	double t = 0;
 	int knot = 4, at[2] = { 0, 0 };
 	for (size_t i = 0; i < n; i++) {
@@ -152,7 +153,13 @@ static enum status branch_make(struct level_branch *out, const struct level_span
 	out->uv.domain[1] = out->space.domain[1] = t;
 	out->seams = cuts;
 	out->length = curve_length(&out->space, 0, t, 1e-9);
-	return isnan(out->length) ? ST_RESOURCE : ST_OK;
+	if (!isnan(out->length))
+		return ST_OK;
+	st = ST_RESOURCE;
+fail:
+	curve_finish(&out->uv);
+	curve_finish(&out->space);
+	return st;
 }
 
 /* Does it have something of [from, to], but for rounding? */
@@ -191,13 +198,9 @@ enum status level_branch_part(struct level_branch *out, const struct level_branc
 			span_cut(&one, s, from, to);
 			kept[m++] = one;
 		}
-	st = kept ? branch_make(out, kept, m) : ST_RESOURCE;
+	st = kept ? level_branch_of(out, kept, m) : ST_RESOURCE;
 	free(kept);
 	free(spans);
-	if (st != ST_OK) {
-		curve_finish(&out->uv);
-		curve_finish(&out->space);
-	}
 	return st;
 }
 

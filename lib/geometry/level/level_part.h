@@ -16,6 +16,9 @@ enum status level_spans(const struct level_branch *b, struct level_span **out, s
 
 void level_span_uv(const struct level_span *s, double t, double uv[2], double duv[2]);
 
+/* Curves, length and seams of a branch from its spans; what else it has stays. Errors: ST_RESOURCE. */
+enum status level_branch_of(struct level_branch *out, const struct level_span *s, size_t n);
+
 /*
  * The part of a branch between two of its parameters; with to > the end of a closed one it goes on
  * over its start. The cubic in space is cut where it is nearest to the point that the one in u,v has
