@@ -149,10 +149,10 @@ static void print_surface(const char *before, const struct entity *e)
 		printf(" (D%d)", e->de);
 }
 
-/* A gap where borders disagree is much longer than wide. */
-static bool is_gap(const struct mesh_border *b)
+/* A gap where borders disagree is much longer than wide, and not much wider than what is closed. */
+static bool is_gap(const struct mesh_border *b, const struct mesh_figures *f)
 {
-	return b->width < 0.01 * b->length;
+	return b->width < 0.01 * b->length && b->width < 100 * f->join;
 }
 
 static void tell_borders(const struct collection *c, const struct mesh_figures *f)
@@ -163,7 +163,7 @@ static void tell_borders(const struct collection *c, const struct mesh_figures *
 		const struct entity *e[2] = { surface_of(c, b->parts[0]),
 			                      b->parts[1] < 0 ? NULL : surface_of(c, b->parts[1]) };
 		printf("  %s of %d edges, %.4g long, %.2g wide, at %.6g %.6g %.6g, ",
-		       is_gap(b) ? "gap" : "border", b->edges, b->length, b->width, b->at.x,
+		       is_gap(b, f) ? "gap" : "border", b->edges, b->length, b->width, b->at.x,
 		       b->at.y, b->at.z);
 		print_surface("surface ", e[0]);
 		if (e[1])
@@ -190,9 +190,9 @@ static void tell(const struct collection *c, const char *to, const struct mesh_f
 	else
 		printf(", closed");
 	if (x->multiple)
-		printf(", %d edges of three triangles or more", x->multiple);
+		printf(", edges of three triangles or more: %d", x->multiple);
 	if (x->turned)
-		printf(", %d edges between sides that disagree", x->turned);
+		printf(", edges between sides that disagree: %d", x->turned);
 	putchar('\n');
 	tell_borders(c, f);
 }

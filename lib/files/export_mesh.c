@@ -39,9 +39,14 @@ static enum status choose(const struct model *m, struct chosen *x)
 	return st;
 }
 
-static void settle(const struct mesh_wishes *w, double size, struct mesh_figures *out,
-                   const struct report *r)
+static enum status settle(const struct mesh_wishes *w, double size, struct mesh_figures *out,
+                          const struct report *r)
 {
+	/* squares of lengths must be numbers */
+	if (!(size > 1e-150 && size < 1e150))
+		return report_error(
+		        r, ST_INPUT,
+		        "the surfaces are %g across; expected 1e-150 to 1e150, scale them", size);
 	out->tolerance = w->tolerance > 0 ? w->tolerance : default_tolerance * size;
 	out->angle = w->angle > 0 ? w->angle : default_angle;
 	out->join = w->join > 0 ? w->join : default_join * size;
@@ -51,8 +56,9 @@ static void settle(const struct mesh_wishes *w, double size, struct mesh_figures
 		        out->tolerance, finest * size);
 		out->tolerance = finest * size;
 	}
-	/* beyond the size nothing changes; beyond all bounds nothing can be computed */
-	out->tolerance = fmin(out->tolerance, fmax(size, finest));
+	/* beyond the size nothing changes */
+	out->tolerance = fmin(out->tolerance, size);
+	return ST_OK;
 }
 
 bool mesh_stopped(const struct mesh_labels *l)
@@ -85,16 +91,23 @@ enum status export_mesh(const struct model *m, mesh_writer *write, const char *p
 	struct mesh mesh = { 0 };
 	*out = (struct mesh_figures){ 0 };
 	enum status st = choose(m, &x);
-	if (st != ST_OK) {
+	if (st != ST_OK)
 		report_error(r, st, "memory ran out");
-	} else {
-		settle(w, x.size, out, r);
+	else
+		st = settle(w, x.size, out, r);
+	if (st == ST_OK) {
 		const struct tessellate_limits limits = { .chord = out->tolerance,
 			                                  .angle = out->angle * M_PI / 180,
 			                                  .join = out->join,
 			                                  .orient = true };
 		st = tessellate(&mesh, x.faces, x.n, &limits, &watch, r);
 	}
+	if (st == ST_OK && !mesh.n_triangles)
+		st = report_error(
+		        r, ST_INPUT,
+		        "'%s' is not written: no surface named has an area within its trims "
+		        "that a tolerance of %g lets see",
+		        path, out->tolerance);
 	if (st == ST_OK && mesh_look(&out->looks, &mesh) != ST_OK)
 		st = report_error(r, ST_RESOURCE, "memory ran out");
 	if (st == ST_OK) {

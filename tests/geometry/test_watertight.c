@@ -245,7 +245,7 @@ static void closed_shapes_are_closed(void **state)
 			cut(&m, &x, &l, &store.report);
 			assert_int_equal(mesh_look(&looks, &m), ST_OK);
 			if (looks.open + looks.multiple + looks.turned + store.n_warnings)
-				fail_msg("%s within %g: %d open, %d multiple, %d turned, %d left",
+				fail_msg("%s within %g: %d open, %d multiple, %d turned, %zu left",
 				         shapes[s].name, chords[i], looks.open, looks.multiple,
 				         looks.turned, store.n_warnings);
 			/* closed: three edges a triangle, each twice */

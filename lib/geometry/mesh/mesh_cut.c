@@ -4,7 +4,8 @@
 
 #include "mesh_private.h"
 
-enum { DEPTH_MAX = 24, POLE_DEPTH_MAX = 7 };
+/* Bends are counted by int: to halve them so often is enough. */
+enum { DEPTH_MAX = 24, POLE_DEPTH_MAX = 7, BENDS_DEPTH_MAX = 33 };
 
 /* Of its length: an edge that strays less is straight. */
 static const double straight_within = 1e-9;
@@ -21,8 +22,10 @@ struct line {
 	struct mesh_edge *master;
 	const int *members;
 	int n_members;
-	double *ways; /* owned; for each depth the members' parameters at the middle */
-	double *ends; /* owned; at the start, then at the end of the piece between knots at hand */
+	double *ways;  /* owned; for each depth the members' parameters at the middle */
+	double *ends;  /* owned; at the start, at the end, then at the bends */
+	double *bends; /* owned; rising */
+	int n_bends;
 };
 
 static enum status vertex_point(struct mesh_build *b, int vertex, int *point)
@@ -156,32 +159,50 @@ static enum status cut_pole(struct line *x, double from, double to, int depth)
 	return st == ST_OK ? cut_pole(x, middle, to, depth + 1) : st;
 }
 
-/* Between the master's sharp bends, piece by piece. */
-static enum status cut_pieces(struct line *x)
+/* The master's sharp bends, but those next to an end or to the one before. */
+static enum status find_bends(struct line *x)
 {
 	const struct mesh_edge *e = x->master;
-	const int least = e->vertex[0] == e->vertex[1] ? 2 : 0;
-	double *from = x->ends, *to = x->ends + x->n_members, *last = to + x->n_members;
 	const double near = short_of * mesh_edge_length(x->b, e, e->t[0], e->t[1]);
+	const struct vec3 end = mesh_edge_point(x->b, e, e->t[1]);
+	struct vec3 last = mesh_edge_point(x->b, e, e->t[0]);
 	double at = e->t[0];
 	enum status st = ST_OK;
-	for (int k = 0; k < x->n_members; k++) {
-		const struct mesh_edge *m = &x->b->edges[x->members[k]];
-		from[k] = m->t[m->reversed];
-		last[k] = m->t[!m->reversed];
-	}
+	int room = 0;
 	for (int i = 1; e->uv && i < e->uv->n && st == ST_OK; i++) {
 		const double t = e->uv->knots[i];
-		if (!(t > at && t < e->t[1] && t == e->uv->knots[i + e->uv->order - 2]) ||
-		    mesh_edge_length(x->b, e, at, t) <= near ||
-		    mesh_edge_length(x->b, e, t, e->t[1]) <= near)
+		if (!(t > at && t < e->t[1] && t == e->uv->knots[i + e->uv->order - 2]))
 			continue;
-		find_ways(x, t, from, last, to);
-		st = cut_between(x, (double[2]){ at, t }, from, to, 0, least);
-		memcpy(from, to, (size_t)x->n_members * sizeof *from);
+		const struct vec3 p = mesh_edge_point(x->b, e, t);
 		at = t;
+		if (vec3_length(vec3_sub(p, last)) <= near || vec3_length(vec3_sub(p, end)) <= near)
+			continue;
+		last = p;
+		st = mesh_grow((void **)&x->bends, &room, x->n_bends + 1, sizeof *x->bends);
+		if (st == ST_OK)
+			x->bends[x->n_bends++] = t;
 	}
-	return st == ST_OK ? cut_between(x, (double[2]){ at, e->t[1] }, from, last, 0, least) : st;
+	return st;
+}
+
+/* Nodes between t[0] and t[1], where bends lo .. hi - 1 lie. The middle one first, so that the others'
+ * parameters are looked for in ever shorter pieces. */
+static enum status cut_bends(struct line *x, const double t[2], int lo, int hi, const double *from,
+                             const double *to, int depth)
+{
+	/* a line that ends where it began needs a few points to be one */
+	const bool ring = x->master->vertex[0] == x->master->vertex[1];
+	if (lo >= hi)
+		return cut_between(x, t, from, to, 0,
+		                   ring ? x->n_bends < 1 ? 2 : x->n_bends < 3 : 0);
+	const int middle = lo + (hi - lo) / 2;
+	const double at = x->bends[middle];
+	double *ways = x->ends + (size_t)depth * x->n_members;
+	find_ways(x, at, from, to, ways);
+	enum status st = cut_bends(x, (double[2]){ t[0], at }, lo, middle, from, ways, depth + 1);
+	return st == ST_OK
+	               ? cut_bends(x, (double[2]){ at, t[1] }, middle + 1, hi, ways, to, depth + 1)
+	               : st;
 }
 
 static void turn_nodes(struct mesh_edge *e)
@@ -206,16 +227,17 @@ static enum status cut_line(struct line *x)
 	}
 	const size_t n = (size_t)x->n_members;
 	x->ways = malloc((DEPTH_MAX + 1) * n * sizeof *x->ways);
-	x->ends = malloc(3 * n * sizeof *x->ends);
-	st = x->ways && x->ends ? ST_OK : ST_RESOURCE;
+	x->ends = malloc((2 + BENDS_DEPTH_MAX) * n * sizeof *x->ends);
+	st = x->ways && x->ends ? find_bends(x) : ST_RESOURCE;
 	for (size_t k = 0; k < n && st == ST_OK; k++) {
 		const struct mesh_edge *m = &x->b->edges[x->members[k]];
 		x->ends[k] = m->t[m->reversed];
+		x->ends[n + k] = m->t[!m->reversed];
 	}
 	if (st == ST_OK)
 		st = line_add(x, e->t[0], x->ends);
 	if (st == ST_OK)
-		st = cut_pieces(x);
+		st = cut_bends(x, e->t, 0, x->n_bends, x->ends, x->ends + n, 2);
 	for (size_t k = 0; k < n; k++) {
 		struct mesh_edge *m = &x->b->edges[x->members[k]];
 		if (m->reversed)
@@ -223,6 +245,7 @@ static enum status cut_line(struct line *x)
 	}
 	free(x->ways);
 	free(x->ends);
+	free(x->bends);
 	return st;
 }
 

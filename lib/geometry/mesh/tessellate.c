@@ -168,8 +168,9 @@ static enum status fill_all(struct mesh_build *b)
 		if (st == ST_INPUT) {
 			report_warning(
 			        b->r,
-			        "face %d is left out: its loops cross each other when cut to "
-			        "the tolerance; give a smaller one",
+			        "face %d is left out: its trimming loops cross each other; "
+			        "mend them, or give a smaller tolerance if they only do when "
+			        "cut to this one",
 			        f + 1);
 			m->n_triangles = m->parts[f].first;
 			st = ST_OK;
