@@ -110,9 +110,9 @@ double queue_deadline(const struct queue *q);
 void queue_tick(struct queue *q);
 
 /* The jobs in memory by rising id: all that have not ended, and some that have. Borrowed until the next
- * call that changes the queue. */
+ * call that changes the queue; times and what is waited for are those told last. */
 int queue_count(const struct queue *q);
-const struct Stats *queue_at(struct queue *q, int i);
+const struct Stats *queue_at(const struct queue *q, int i);
 
 /* Any job, also one that is only in the ledger; borrowed until the next call. NULL: there is none. */
 const struct Stats *queue_find(struct queue *q, int64_t id);

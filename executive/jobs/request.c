@@ -4,7 +4,7 @@
 
 #include "batch.h"
 #include "json.h"
-#include "server.h"
+#include "selection.h"
 
 /* Of those that have ended WATCH tells so many, without a name; PRUNE forgets so many at once. */
 enum { HOUR_S = 3600, WATCH_LAST = 1000, PRUNE_PAGE = 1000 };
@@ -18,26 +18,6 @@ struct request_row {
 };
 
 static const struct request_row *row_find(enum message_type type);
-
-static struct queue *queue_of(const struct request *q)
-{
-	return q->session->server->queue;
-}
-
-/* The first sentence is the one the client gets, with ERROR in place of END. */
-static void request_say(void *data, enum report_level level, enum status st, const char *text)
-{
-	struct request *q = data;
-	if (level != REPORT_ERROR || q->error)
-		return;
-	q->st = st;
-	q->error = strdup(text);
-}
-
-static struct report request_report(struct request *q)
-{
-	return (struct report){ .say = request_say, .data = q };
-}
 
 void request_end(struct request *q)
 {
@@ -59,107 +39,6 @@ void request_destroy(struct request *q)
 	free(q->group);
 	free(q->error);
 	free(q);
-}
-
-static void fail(struct request *q, enum status st, const char *text)
-{
-	struct report r = request_report(q);
-	report_error(&r, st, "%s", text);
-}
-
-/* Which jobs */
-
-static int by_id(const void *a, const void *b)
-{
-	int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
-	return (x > y) - (x < y);
-}
-
-static bool jobs_room(struct request *q, size_t n)
-{
-	q->jobs = calloc(n + 1, sizeof *q->jobs);
-	if (!q->jobs)
-		fail(q, ST_RESOURCE, "out of memory");
-	return q->jobs;
-}
-
-static bool select_named(struct request *q, const json_t *ids)
-{
-	struct report r = request_report(q);
-	if (!jobs_room(q, json_array_size(ids)))
-		return false;
-	for (size_t i = 0; i < json_array_size(ids); i++) {
-		int64_t id = json_integer_value(json_array_get(ids, i));
-		if (queue_has(queue_of(q), id))
-			q->jobs[q->n++] = id;
-		else
-			report_error(&r, ST_INPUT,
-			             "there is no job %lld; 'batten jobs --all' lists them",
-			             (long long)id);
-	}
-	qsort(q->jobs, (size_t)q->n, sizeof *q->jobs, by_id);
-	return true;
-}
-
-static bool in_group(const struct Stats *s, const char *group)
-{
-	return !group || (s->group && !strcmp(s->group, group));
-}
-
-static bool group_met(struct request *q, const char *group)
-{
-	const struct ledger_choice any = { .group = group, .newest = 1 };
-	struct report r = request_report(q);
-	int64_t *ids;
-	size_t n;
-	for (int i = 0; i < queue_count(queue_of(q)); i++)
-		if (in_group(queue_at(queue_of(q), i), group))
-			return true;
-	if (queue_over(queue_of(q), &any, &ids, &n, &r) != ST_OK)
-		return false;
-	free(ids);
-	if (!n)
-		report_error(&r, ST_INPUT, "there is no group '%s'", group);
-	return n;
-}
-
-/* Which jobs: those in memory that pass, and those of the ledger that are chosen (NULL: none). */
-struct selection {
-	bool (*pass)(const struct Stats *s, const void *data); /* NULL: all */
-	const void *data;
-	const struct ledger_choice *over; /* its group is set by select_where */
-};
-
-/* Of a group, NULL: of all. */
-static bool select_where(struct request *q, const char *group, const struct selection *which)
-{
-	struct queue *jobs = queue_of(q);
-	struct report r = request_report(q);
-	int64_t *over = NULL;
-	size_t n_over = 0;
-	if (group && !group_met(q, group))
-		return false;
-	if (which->over) {
-		struct ledger_choice choice = *which->over;
-		choice.group = group;
-		if (queue_over(jobs, &choice, &over, &n_over, &r) != ST_OK)
-			return false;
-	}
-	if (!jobs_room(q, (size_t)queue_count(jobs) + n_over)) {
-		free(over);
-		return false;
-	}
-	for (int i = 0; i < queue_count(jobs); i++) {
-		const struct Stats *s = queue_at(jobs, i);
-		if (in_group(s, group) && (!which->pass || which->pass(s, which->data)))
-			q->jobs[q->n++] = s->id;
-	}
-	for (size_t i = 0; i < n_over; i++)
-		q->jobs[q->n++] = over[i];
-	free(over);
-	if (n_over)
-		qsort(q->jobs, (size_t)q->n, sizeof *q->jobs, by_id);
-	return true;
 }
 
 static const struct ledger_choice all_over = { 0 };
@@ -217,7 +96,7 @@ static void list_begin(struct request *q)
 	q->n_list = q->list ? q->n : 0;
 	q->at_list = 0;
 	if (!q->list)
-		fail(q, ST_RESOURCE, "out of memory");
+		request_fail(q, ST_RESOURCE, "out of memory");
 	else if (q->n)
 		memcpy(q->list, q->jobs, (size_t)q->n * sizeof *q->list);
 }
@@ -236,7 +115,7 @@ static bool somebody_named(struct request *q, const json_t *body)
 	if (json_is_array(json_object_get(body, "jobs")) || json_text(body, "group", NULL) ||
 	    json_flag(body, "all", false))
 		return true;
-	fail(q, ST_PARAMETER, "no job is named; give ids, a group or all");
+	request_fail(q, ST_PARAMETER, "no job is named; give ids, a group or all");
 	return false;
 }
 
@@ -247,9 +126,9 @@ static enum status gate(struct request *q, const struct request_row *row, const 
 	bool all = json_flag(body, "all", false) && !json_object_get(body, "jobs") &&
 	           !json_object_get(body, "group");
 	if (all && row->event == EV_HOLD && json_flag(body, "after_current", false))
-		return queue_hold(queue_of(q), true, &r);
+		return queue_hold(request_queue(q), true, &r);
 	if (all && row->event == EV_RELEASE)
-		return queue_hold(queue_of(q), false, &r);
+		return queue_hold(request_queue(q), false, &r);
 	return ST_OK;
 }
 
@@ -275,15 +154,15 @@ static void take_event(struct request *q, const struct request_row *row, const j
 		request_end(q);
 		return;
 	}
-	if (json_is_array(ids) ? !select_named(q, ids) : !select_where(q, group, &which)) {
+	if (json_is_array(ids) ? !selection_named(q, ids) : !selection_where(q, group, &which)) {
 		request_end(q);
 		return;
 	}
 	int kept = 0;
 	for (int i = 0; i < q->n; i++) {
-		const struct Stats *s = queue_find(queue_of(q), q->jobs[i]);
+		const struct Stats *s = queue_find(request_queue(q), q->jobs[i]);
 		if ((lenient && has_begun(s)) ||
-		    queue_event(queue_of(q), q->jobs[i], row->event, by, &r) == ST_OK)
+		    queue_event(request_queue(q), q->jobs[i], row->event, by, &r) == ST_OK)
 			q->jobs[kept++] = q->jobs[i];
 	}
 	q->n = kept;
@@ -300,15 +179,16 @@ static void take_priority(struct request *q, const struct request_row *row, cons
 	if (priority < -1000000 || priority > 1000000)
 		report_error(&r, ST_PARAMETER, "priority is %lld, expected -1000000 to 1000000",
 		             (long long)priority);
-	else if (json_is_array(ids) ? select_named(q, ids)
-	                            : select_where(q, json_text(body, "group", NULL),
-	                                           &(struct selection){ .pass = pass_unended })) {
+	else if (json_is_array(ids)
+	                 ? selection_named(q, ids)
+	                 : selection_where(q, json_text(body, "group", NULL),
+	                                   &(struct selection){ .pass = pass_unended })) {
 		/* the first of several that are put first is put there last */
 		for (int i = 0; i < q->n; i++)
 			if (json_flag(body, "top", false))
-				queue_top(queue_of(q), q->jobs[q->n - 1 - i], &r);
+				queue_top(request_queue(q), q->jobs[q->n - 1 - i], &r);
 			else
-				queue_priority(queue_of(q), q->jobs[i], (int)priority, &r);
+				queue_priority(request_queue(q), q->jobs[i], (int)priority, &r);
 	}
 }
 
@@ -327,9 +207,9 @@ static void take_list(struct request *q, const struct request_row *row, const js
 	(void)row;
 	q->full = json_flag(body, "full", false);
 	if (json_is_array(ids))
-		select_named(q, ids);
+		selection_named(q, ids);
 	else
-		select_where(q, json_text(body, "group", NULL), &which);
+		selection_where(q, json_text(body, "group", NULL), &which);
 }
 
 /* WAIT is answered when all have ended; without a name it is for those there are now. */
@@ -343,9 +223,9 @@ static void take_wait(struct request *q, const struct request_row *row, const js
 		.over = group ? &all_over : NULL,
 	};
 	if (json_is_array(ids))
-		select_named(q, ids);
+		selection_named(q, ids);
 	else
-		select_where(q, group, &which);
+		selection_where(q, group, &which);
 }
 
 /* Those of the group, or all that have not ended and the last that have. */
@@ -355,7 +235,7 @@ static void watch_all(struct request *q)
 	const struct selection which = { .over = q->group ? &all_over : &last };
 	bool named = q->jobs;
 	q->behind = false;
-	if (named || select_where(q, q->group, &which))
+	if (named || selection_where(q, q->group, &which))
 		list_begin(q);
 	if (named)
 		return;
@@ -371,7 +251,7 @@ static void take_watch(struct request *q, const struct request_row *row, const j
 	(void)row;
 	q->stay = json_flag(body, "stay", false);
 	if (json_is_array(ids)) {
-		if (!select_named(q, ids) || q->error) {
+		if (!selection_named(q, ids) || q->error) {
 			request_end(q);
 			return;
 		}
@@ -386,16 +266,16 @@ static void take_watch(struct request *q, const struct request_row *row, const j
 static void take_log(struct request *q, const struct request_row *row, const json_t *body)
 {
 	int64_t id = json_int(body, "job", 0);
-	const struct Stats *s = queue_find(queue_of(q), id);
+	const struct Stats *s = queue_find(request_queue(q), id);
 	struct report r = request_report(q);
 	(void)row;
 	if (!s) {
 		report_error(&r, ST_INPUT, "there is no job %lld; 'batten jobs --all' lists them",
 		             (long long)id);
-	} else if (jobs_room(q, 1)) {
+	} else if (request_room(q, 1)) {
 		q->jobs[q->n++] = id;
 		if (log_reader_create(q, s, json_flag(body, "follow", false)) != ST_OK)
-			fail(q, ST_RESOURCE, "out of memory");
+			request_fail(q, ST_RESOURCE, "out of memory");
 	}
 	if (q->error)
 		request_end(q);
@@ -412,7 +292,7 @@ static void take_prune(struct request *q, const struct request_row *row, const j
 {
 	(void)row;
 	(void)body;
-	if (select_where(q, NULL, &(struct selection){ .pass = pass_over, .over = &all_over }))
+	if (selection_where(q, NULL, &(struct selection){ .pass = pass_over, .over = &all_over }))
 		list_begin(q);
 	else
 		request_end(q);
@@ -421,7 +301,7 @@ static void take_prune(struct request *q, const struct request_row *row, const j
 /* A page: those that were tried again meanwhile stay. */
 static bool prune_page(struct request *q, const struct report *r)
 {
-	struct queue *jobs = queue_of(q);
+	struct queue *jobs = request_queue(q);
 	int first = q->at_list, n = 0;
 	for (; q->at_list < q->n_list && n < PRUNE_PAGE; q->at_list++) {
 		int64_t id = q->list[q->at_list];
@@ -441,7 +321,7 @@ static void prune_go_on(struct request *q)
 		good = prune_page(q, &r);
 	if (good && q->at_list < q->n_list)
 		return;
-	prune_files(q->session->server->project, queue_of(q));
+	prune_files(q->session->server->project, request_queue(q));
 	request_end(q);
 }
 
@@ -456,8 +336,8 @@ static void take_submit(struct request *q, const struct request_row *row, const 
 	if (st == ST_OK && !b.n)
 		st = report_error(&r, ST_PARAMETER, "no job is given");
 	if (st == ST_OK)
-		st = queue_submit(queue_of(q), b.jobs, b.n, &first, &r);
-	if (st == ST_OK && jobs_room(q, (size_t)b.n))
+		st = queue_submit(request_queue(q), b.jobs, b.n, &first, &r);
+	if (st == ST_OK && request_room(q, (size_t)b.n))
 		for (int i = 0; i < b.n; i++)
 			q->jobs[q->n++] = first + i;
 	batch_finish(&b);
@@ -509,8 +389,8 @@ void request_take(struct session *c, const struct message *m)
 static bool request_names(const struct request *q, const struct Stats *s)
 {
 	if (!q->jobs)
-		return in_group(s, q->group);
-	return bsearch(&s->id, q->jobs, (size_t)q->n, sizeof *q->jobs, by_id);
+		return selection_in_group(s, q->group);
+	return selection_has(q, s->id);
 }
 
 void request_told(struct request *q, const struct Stats *s)
@@ -526,7 +406,7 @@ void request_told(struct request *q, const struct Stats *s)
 /* Have all jobs come to the state that is wanted? What was passed once is not looked at again. */
 static bool request_met(struct request *q, const struct request_row *row)
 {
-	struct queue *jobs = queue_of(q);
+	struct queue *jobs = request_queue(q);
 	if (q->type == MESSAGE_WATCH && q->stay)
 		return false;
 	for (; q->jobs && q->at < q->n; q->at++) {
@@ -538,7 +418,7 @@ static bool request_met(struct request *q, const struct request_row *row)
 	}
 	for (int i = 0; !q->jobs && i < queue_count(jobs); i++) {
 		const struct Stats *s = queue_at(jobs, i);
-		if (in_group(s, q->group) && !row->wanted(s->state))
+		if (selection_in_group(s, q->group) && !row->wanted(s->state))
 			return false;
 	}
 	return true;
@@ -547,7 +427,7 @@ static bool request_met(struct request *q, const struct request_row *row)
 /* Its list was sent, as far as it goes: is there nothing more to say? */
 static bool request_met_now(struct request *q, const struct request_row *row)
 {
-	const char *fault = queue_fault(queue_of(q));
+	const char *fault = queue_fault(request_queue(q));
 	if (fault && row->event != N_JOB_EVENTS) {
 		struct report r = request_report(q);
 		report_error(&r, ST_RESOURCE,

@@ -245,12 +245,9 @@ int queue_count(const struct queue *q)
 	return q->n;
 }
 
-const struct Stats *queue_at(struct queue *q, int i)
+const struct Stats *queue_at(const struct queue *q, int i)
 {
-	struct job *job = q->jobs[i];
-	job_times(job);
-	line_reason(job);
-	return &job->stats;
+	return &q->jobs[i]->stats;
 }
 
 bool queue_busy(const struct queue *q)
