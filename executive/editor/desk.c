@@ -166,7 +166,6 @@ static struct box_px page_box(const struct desk *d)
 			return (struct box_px){ 0 };
 		return d->layout.view;
 	case PAGE_JOBS:
-	case PAGE_KEYS:
 	case PAGE_MESSAGES:
 		return d->layout.view;
 	default:

@@ -133,6 +133,7 @@ struct desk {
 	int uv_of;                   /* id of the surface whose plane that is, 0: none */
 	struct camera camera_before; /* of a drag, for Esc */
 	struct camera camera_seen;   /* the world's, when the views last looked */
+	struct camera camera_fitted; /* as everything was fitted last */
 	struct sight sight_before;   /* of a tool, for Esc */
 	struct display display_before;
 	int display_thing;

@@ -223,7 +223,8 @@ static void paint_page(struct desk *d, cairo_t *cr)
 		panel_help(cr, &d->layout, &d->help, k, h);
 		break;
 	case PAGE_KEYS:
-		panel_keys(cr, &d->layout.view, desk_keys_model(d), k);
+		panel_keys(cr, &(struct box_px){ 0, 0, d->width, d->height }, desk_keys_model(d),
+		           k);
 		break;
 	case PAGE_MESSAGES:
 	case PAGE_QUESTION:

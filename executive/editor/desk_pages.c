@@ -7,14 +7,14 @@
 #include "desk_inside.h"
 
 const struct key_row desk_key_table[] = {
-	{ "1-9 0 A-D", "the menu's entries 1 to 14", false },
+	{ "1-9  0  A-D", "the menu's entries 1 to 14", false },
 	{ "Enter", "the main button", false },
 	{ "Esc", "one step back; work is never lost unasked", false },
 	{ "/  Ctrl K", "find a routine by name, code or help text", false },
 	{ "W  Ctrl W", "the World menu, and back", false },
 	{ "J  Ctrl J", "the jobs", false },
 	{ "T  Ctrl T", "two views: another side, the child, u and v; and back", false },
-	{ "S A K R O L", "in the jobs: suspend, activate, kill, retry, open, log", false },
+	{ "S  A  K  R  O  L", "in the jobs: suspend, activate, kill, retry, open, log", false },
 	{ "F1", "help for the entry under the mouse, or of what is asked", false },
 	{ "?", "this sheet", false },
 	{ "F4", "the last 200 messages", false },
@@ -22,12 +22,12 @@ const struct key_row desk_key_table[] = {
 	{ "Shift Z  Ctrl Y", "redo", false },
 	{ "Tab", "complete, or the next field", false },
 	{ "Shift Tab", "the field before", false },
-	{ "Up, Down", "candidates, steps of a value, earlier values", false },
+	{ "Up  Down", "candidates, steps of a value, earlier values", false },
 	{ "R  Ctrl R", "the defaults of what is asked", false },
 	{ "Arrows", "turn the view 5°, with Shift pan, with Ctrl zoom", false },
 	{ "F", "fit what is shown into the view", false },
 	{ "Home", "the standard view", false },
-	{ "X Y Shift X Shift Y", "look along an axis", false },
+	{ "X  Y  Shift X  Shift Y", "look along an axis", false },
 	{ "Ctrl 1-6", "front, back, left, right, top, bottom", false },
 	{ "Space held", "the mouse turns the view, whatever is asked", false },
 	{ "F9", "hide and show the panel", false },
@@ -118,7 +118,8 @@ int desk_page_last(struct desk *d)
 	if (d->page != PAGE_KEYS)
 		return d->n_messages - 1;
 	const struct keys_model *m = desk_keys_model(d);
-	const int room = panel_keys_rows(&d->layout.view, m);
+	const struct box_px all = { 0, 0, d->width, d->height };
+	const int room = panel_keys_rows(&all, m);
 
 	return m->n > room ? m->n - room : 0;
 }

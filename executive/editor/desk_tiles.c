@@ -83,12 +83,27 @@ static void split_views(struct desk *d)
 	d->split_anew |= before != d->n_tiles || was != d->split;
 }
 
+/* Nobody has moved since everything was fitted into the view. */
+static bool is_as_fitted(const struct desk *d)
+{
+	const struct camera *c = &d->tiles[0].view.camera, *f = &d->camera_fitted;
+
+	return d->fitted && c->kind == f->kind && c->half == f->half &&
+	       !memcmp(&c->eye, &f->eye, sizeof c->eye) &&
+	       !memcmp(&c->ahead, &f->ahead, sizeof c->ahead);
+}
+
 void desk_views_place(struct desk *d)
 {
+	const struct box_px was = d->tiles[0].box;
+
 	if (!d->errand)
 		split_views(d);
 	const int n = d->n_tiles;
 	place_tiles(d, n);
+	const bool resized =
+	        was.width != d->tiles[0].box.width || was.height != d->tiles[0].box.height;
+	const bool again = resized && is_as_fitted(d);
 	for (int i = 0; i < n; i++) {
 		struct view_state *v = &d->tiles[i].view;
 		v->theme = d->theme;
@@ -100,7 +115,7 @@ void desk_views_place(struct desk *d)
 		if (!v->hover_thing)
 			v->hover_point = -1;
 	}
-	if (!d->split_anew || d->errand || !d->fitted)
+	if ((!d->split_anew && !again) || d->errand || !d->fitted)
 		return;
 	d->tile = 0;
 	desk_views_fit(d, NULL); /* what was seen in one view is seen in each */
@@ -199,6 +214,7 @@ void desk_views_fit(struct desk *d, const char *view)
 		return;
 	}
 	desk_views_spread(d, (int)(t - d->tiles));
+	d->camera_fitted = d->tiles[0].view.camera;
 }
 
 /* ------------------------------------------------------------ one or two */

@@ -45,11 +45,15 @@ static void paint_head(const struct paint *p, const struct box_px *b, const stru
 	const double left = b->x + PAINT_PADDING, right = b->x + b->width - PAINT_PADDING;
 	const double middle = b->y + 43, cap = paint_cap_width(p, "F1");
 	paint_crumbs(p, left, b->y + 20, right - left, m->crumbs);
+	/* a long title takes the place of the word beside the key */
+	const double word = paint_width(p, LABEL_NOTE, "help") + 8;
+	const bool tight = left + paint_width(p, LABEL_TITLE, m->title) + 12 > right - cap - word;
+	const double help = tight ? cap : cap + word;
 	paint_cap(p, right, middle, 1, "F1");
-	double help = paint_text(p, LABEL_NOTE,
-	                         paint_hot(p, HIT_HELP_LINK, -1, 0) ? TOKEN_TEXT : TOKEN_MUTED,
-	                         right - cap - 8, middle, 1, "help") +
-	              cap + 8;
+	if (!tight)
+		paint_text(p, LABEL_NOTE,
+		           paint_hot(p, HIT_HELP_LINK, -1, 0) ? TOKEN_TEXT : TOKEN_MUTED,
+		           right - cap - 8, middle, 1, "help");
 	paint_hit(p, HIT_HELP_LINK, -1, 0, right - help - 4, middle - 10, help + 4, 20);
 	if (paint_focused(p, HIT_HELP_LINK, -1, 0))
 		paint_ring(p, right - help - 4, middle - 12, help + 8, 24, 6);
