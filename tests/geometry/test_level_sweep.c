@@ -210,10 +210,50 @@ static void test_sweep(void **state)
 	assert_true(counted > 20);
 }
 
+/* Gaussian curvature with weights far apart: as on the grid, or said to be undecided. */
+static void test_weights(void **state)
+{
+	(void)state;
+	static const double ratio[] = { 100, 1000, 10000 };
+	struct grid g;
+	size_t sure = 0;
+	grid_init(&g);
+	for (int i = 0; i < 3; i++)
+		for (uint64_t c = 3; c < (i < 2 ? 6 : 5); c++) {
+			uint64_t seed = c;
+			struct surface s =
+			        shape_surface((const int[2]){ 4, 4 }, (const int[2]){ 5, 5 }, true,
+			                      KNOTS_CLAMPED, c);
+			for (int k = 0; k < 25; k++)
+				surface_set_point(&s, k / 5, k % 5,
+				                  surface_get_point(&s, k / 5, k % 5, NULL),
+				                  pow(ratio[i], any_number(&seed) - 0.5));
+			grid_sample(&g, &s, true);
+			const struct level_field f = { .kind = LEVEL_CURVATURE,
+				                       .quantity = QUANTITY_GAUSSIAN,
+				                       .value = 0.05 };
+			struct level *l;
+			struct level_result x;
+			for (int k = 0; k < ROW * ROW; k++)
+				g.f[k] = node(&g, &f, k) - f.value;
+			const size_t n = pieces_moved(&g, 0);
+			assert_int_equal(level_create(&l, &s, &f, 1e-4, NULL), ST_OK);
+			assert_int_equal(shape_trace_level(l, &x, NULL), ST_OK);
+			level_destroy(l);
+			assert_true(x.n_branches == n || x.n_undecided > 0);
+			sure += x.n_branches == n && x.n_undecided == 0;
+			level_result_finish(&x);
+			surface_finish(&s);
+		}
+	grid_finish(&g);
+	assert_true(sure >= 5);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_sweep),
+		cmocka_unit_test(test_weights),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

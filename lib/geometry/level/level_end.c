@@ -119,6 +119,20 @@ static double end_reach(const struct joiner *j, const struct chain_end *e)
 	return larger(gap, larger(grazing, step));
 }
 
+/* Is the field of the end's face another there than on the face beyond? Compared where the border of that
+ * one is nearest, which may be a corner a little off. */
+static bool is_crease(const struct joiner *j, const struct chain_end *e,
+                      const struct border_foot *beyond)
+{
+	struct border_foot feet[END_FEET];
+	const int n = border_feet(j->faces, beyond->p, j->faces->gap, feet, END_FEET);
+	for (int i = 0; i < n; i++)
+		if (feet[i].face == e->face &&
+		    (beyond->face != e->face || !is_other(j, e, &feet[i])))
+			return !goes_on(j, e->face, feet[i].uv, beyond->face, beyond->uv);
+	return !goes_on(j, e->face, e->uv, beyond->face, beyond->uv);
+}
+
 static void end_make(const struct joiner *j, const struct level_result *x, size_t branch, int e,
                      struct chain_end *out)
 {
@@ -152,8 +166,7 @@ static void end_make(const struct joiner *j, const struct level_result *x, size_
 	out->crease = out->inside && !mark && !place_alone;
 	for (int i = 0; i < out->n_feet && !out->inside && !place_alone; i++)
 		if (is_other(j, out, &out->feet[i]))
-			out->crease |=
-			        !goes_on(j, out->face, out->uv, out->feet[i].face, out->feet[i].uv);
+			out->crease |= is_crease(j, out, &out->feet[i]);
 }
 
 enum status chain_ends_make(const struct joiner *j, const struct level_result *results, size_t n,
