@@ -303,9 +303,9 @@ const struct command command_export = {
 	.name = "export",
 	.usage = "FILE[#ENTITY]... --to FILE [--tolerance T] [--angle DEG]",
 	.text = "write geometry for other programs",
-	.help = "The extension of --to says how: .base, .igs or .iges, .g2 (SINTEF GoTools) hold curves and\n"
-	        "surfaces, .csv points, .obj, .ply and .stl triangles of the surfaces. Triangles keep to the\n"
-	        "tolerance and the angle, leave no gaps where borders meet, and know trims.",
+	.help = "The extension of --to says how: .base, .igs or .iges, .g2 (SINTEF GoTools) hold curves,\n"
+	        "surfaces and points, .csv points, .obj, .ply and .stl triangles of the surfaces. Triangles\n"
+	        "keep to the tolerance and the angle, leave no gaps where borders meet, and know trims.",
 	.options = export_options,
 	.first_word = WORD_FILE,
 	.words = WORD_FILE,

@@ -109,7 +109,7 @@ static enum status lose_faces(struct iges *g, int de)
 static enum status read_entity(struct iges *g, int de)
 {
 	struct entity out;
-	const struct iges_entry *e = iges_entry(g, de);
+	struct iges_entry *e = iges_entry(g, de);
 	enum status st = read_geometry(g, de, &out);
 	out.de = de;
 	out.source_type = e->type;
@@ -123,8 +123,11 @@ static enum status read_entity(struct iges *g, int de)
 		st = iges_show(g, de, &out);
 	if (st == ST_OK && e->blanked)
 		iges_warn(g, WARN_BLANKED, de);
-	if (st == ST_OK)
-		return model_add(g->m, &out);
+	if (st == ST_OK) {
+		st = model_add(g->m, &out);
+		e->place = g->m->n;
+		return st;
+	}
 	entity_finish(&out);
 	return st;
 }
@@ -139,7 +142,11 @@ static enum status read_curve_on_surface(struct iges *g, int de)
 	out.de = de;
 	out.source_type = e->type;
 	if (st == ST_OK)
+		st = iges_name(g, de, &out);
+	if (st == ST_OK)
 		st = iges_color(g, de, &out);
+	if (st == ST_OK)
+		st = iges_group(g, de, &out);
 	if (st == ST_OK)
 		return model_add(g->m, &out);
 	entity_finish(&out);

@@ -20,8 +20,11 @@ enum status iges_parse(struct model *m, const char *bytes, size_t n, const char 
 enum status iges_read(struct model *m, int fd, size_t n, const char *name, const struct progress *p,
                       const struct report *r);
 
+/* What can be written: curves, surfaces and points in space. */
+bool iges_holds(const struct entity *e);
+
 /* The surfaces and curves of a model as entities 128 (with trims: 144 on it) and 126, each the part
- * that its domain means.
+ * that its domain means; curves on a surface of it as 142, points as 116 and 106 form 2.
  * No time, no host in the header. Without a unit millimetres are stated, with a warning. */
 void iges_format(const struct model *m, struct text *out);
 enum status iges_write(const struct model *m, const char *path, const struct report *r);

@@ -216,6 +216,16 @@ static double uv_gap(const struct surface *s)
 	       hypot(s->domain[0][1] - s->domain[0][0], s->domain[1][1] - s->domain[1][0]);
 }
 
+/* Place in the model of the surface at `de` if that is where the file has it; -1: it is not. */
+static int surface_place(struct iges *g, int de)
+{
+	const struct iges_entry *e = iges_entry(g, de);
+	for (int i = e->uses; i >= 0; i = g->uses[i].next)
+		if (g->uses[i].matrix >= 0)
+			return -1;
+	return e->place - 1;
+}
+
 enum status iges_curve_on_surface(struct iges *g, int de, struct entity *out)
 {
 	struct iges_cursor c;
@@ -243,6 +253,8 @@ enum status iges_curve_on_surface(struct iges *g, int de, struct entity *out)
 		st = iges_matrix(g, iges_entry(g, de)->transform, m, &any);
 	if (st == ST_OK && any)
 		curve_transform(&out->space, (const double(*)[4])m);
+	else if (st == ST_OK)
+		out->surface = surface_place(g, base);
 	trim_loop_finish(&uv);
 	surface_finish(&s);
 	return st;

@@ -1,8 +1,7 @@
-/* iges_format.c - writer of IGES 5.3: 126 and 128, their names (406 form 15) and colors (314); trims
- * are in iges_format_trims.c, groups in iges_format_groups.c. */
+/* iges_format.c - writer of IGES 5.3: 126, 128, 116 and 106, their names (406 form 15) and colors (314);
+ * trims are in iges_format_trims.c, groups in iges_format_groups.c. */
 #include "iges_writer.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +10,7 @@
 #include "number.h"
 #include "refine.h"
 
-enum { HEADER_COLUMNS = 72, DATA_COLUMNS = 64, SEQUENCE_MAX = 9999999 };
+enum { DATA_COLUMNS = 64, SEQUENCE_MAX = 9999999 };
 
 static void end_line(struct iges_writer *w)
 {
@@ -34,10 +33,7 @@ void iges_put_int(struct iges_writer *w, int x, char delimiter)
 	put(w, s, (size_t)snprintf(s, sizeof s, "%d%c", x, delimiter));
 }
 
-enum { REAL_SIZE = NUMBER_SIZE + 2 };
-
-/* Reals of IGES have a point, and E before the exponent. Returns the length. */
-static size_t real_text(char out[REAL_SIZE], double x)
+size_t iges_real_text(char out[IGES_REAL_SIZE], double x)
 {
 	char s[NUMBER_SIZE];
 	size_t n = (size_t)number_write(s, x), m = 0;
@@ -55,10 +51,10 @@ static size_t real_text(char out[REAL_SIZE], double x)
 	return m;
 }
 
-static void put_real(struct iges_writer *w, double x, char delimiter)
+void iges_put_real(struct iges_writer *w, double x, char delimiter)
 {
-	char s[REAL_SIZE + 1];
-	size_t n = real_text(s, x);
+	char s[IGES_REAL_SIZE + 1];
+	size_t n = iges_real_text(s, x);
 	s[n++] = delimiter;
 	put(w, s, n);
 }
@@ -66,7 +62,7 @@ static void put_real(struct iges_writer *w, double x, char delimiter)
 static void put_reals(struct iges_writer *w, const double *x, size_t n)
 {
 	for (size_t i = 0; i < n; i++)
-		put_real(w, x[i], ',');
+		iges_put_real(w, x[i], ',');
 }
 
 /* A string runs over line ends, each of them full. What is no character becomes a blank. */
@@ -102,7 +98,7 @@ static bool all_weights_equal(const double *points, size_t n)
 static void put_point(struct iges_writer *w, const double *p)
 {
 	for (int k = 0; k < 3; k++)
-		put_real(w, p[3] == 1 ? p[k] : p[k] / p[3], ',');
+		iges_put_real(w, p[3] == 1 ? p[k] : p[k] / p[3], ',');
 }
 
 /* Ends nearer than this part of the size are said to join. */
@@ -138,12 +134,12 @@ static void put_curve(struct iges_writer *w, const struct curve *c)
 		iges_put_int(w, head[i], ',');
 	put_reals(w, c->knots, (size_t)c->n + c->order);
 	for (int i = 0; i < c->n; i++)
-		put_real(w, c->points[4 * (size_t)i + 3], ',');
+		iges_put_real(w, c->points[4 * (size_t)i + 3], ',');
 	for (int i = 0; i < c->n; i++)
 		put_point(w, c->points + 4 * (size_t)i);
 	put_reals(w, c->domain, 2);
 	put_reals(w, (const double[]){ 0, 0 }, 2);
-	put_real(w, planar ? 1 : 0, ',');
+	iges_put_real(w, planar ? 1 : 0, ',');
 }
 
 static void put_surface(struct iges_writer *w, const struct surface *s)
@@ -165,7 +161,7 @@ static void put_surface(struct iges_writer *w, const struct surface *s)
 		put_reals(w, s->knots[d], (size_t)s->n[d] + s->order[d]);
 	for (int j = 0; j < s->n[1]; j++)
 		for (int i = 0; i < s->n[0]; i++)
-			put_real(w, s->points[4 * ((size_t)i * s->n[1] + j) + 3], ',');
+			iges_put_real(w, s->points[4 * ((size_t)i * s->n[1] + j) + 3], ',');
 	for (int j = 0; j < s->n[1]; j++)
 		for (int i = 0; i < s->n[0]; i++)
 			put_point(w, s->points + 4 * ((size_t)i * s->n[1] + j));
@@ -216,7 +212,7 @@ static int put_color(struct iges_writer *w, const float color[3])
 {
 	int de = iges_begin(w, 314);
 	for (int i = 0; i < 3; i++)
-		put_real(w, percent(color[i]), i < 2 ? ',' : ';');
+		iges_put_real(w, percent(color[i]), i < 2 ? ',' : ';');
 	end_line(w);
 	put_entry(w, 314, 0, w->n_p - w->from, 0, "00000200");
 	return de;
@@ -232,8 +228,7 @@ int iges_put_name(struct iges_writer *w, const char *name)
 	return de;
 }
 
-/* The curve of an entity that 126 can hold; NULL for none. */
-static const struct curve *curve_of(const struct entity *e)
+const struct curve *iges_curve_of(const struct entity *e)
 {
 	if (e->kind == ENTITY_CURVE)
 		return &e->curve;
@@ -281,97 +276,92 @@ int iges_put_curve(struct iges_writer *w, const struct curve *c, const char *sta
 	return de;
 }
 
-static void put_entity(struct iges_writer *w, const struct entity *e)
+/* A point, or a list of them (106 form 2). */
+static void put_points(struct iges_writer *w, const struct point_list *l, int color, int name)
 {
-	const struct curve *curve = curve_of(e);
-	if (!curve && e->kind != ENTITY_SURFACE)
-		return;
-	bool trimmed = !curve && e->trim.n;
+	const bool one = l->n == 1;
+	iges_begin(w, one ? 116 : 106);
+	if (!one) {
+		iges_put_int(w, 2, ',');
+		iges_put_int(w, l->n, ',');
+	}
+	put_reals(w, l->values, (size_t)3 * (size_t)l->n);
+	if (one)
+		iges_put_int(w, 0, ','); /* no symbol */
+	iges_end_form(w, one ? 116 : 106, one ? 0 : 2, color, name, "00000000");
+}
+
+/* Gives the directory entry of the shape, 0 for what is not written. */
+static int put_entity(struct iges_writer *w, const struct entity *e)
+{
+	const struct curve *curve = iges_curve_of(e);
+	if (!iges_holds(e))
+		return 0;
+	bool trimmed = e->kind == ENTITY_SURFACE && e->trim.n;
 	int type = curve ? 126 : 128;
 	int color = e->has_color ? -put_color(w, e->color) : 0;
 	int name = e->name && e->name[0] ? iges_put_name(w, e->name) : 0;
-	int de = iges_begin(w, type);
-	w->data.failed |= !put_shape(w, curve, &e->geometry);
-	iges_end(w, type, color, trimmed ? 0 : name, trimmed ? "00010000" : "00000000");
+	int de = w->n_d + 1;
+	if (e->kind == ENTITY_POINTS) {
+		put_points(w, &e->points, color, name);
+	} else {
+		iges_begin(w, type);
+		w->data.failed |= !put_shape(w, curve, &e->geometry);
+		iges_end(w, type, color, trimmed ? 0 : name, trimmed ? "00010000" : "00000000");
+	}
 	if (trimmed)
 		w->data.failed |= iges_put_trims(w, e, de, color, name) != ST_OK;
 	else
 		iges_join_group(w, e, de);
+	return de;
 }
 
-/* Unit flag of global field 14; 3 says that the name in field 15 counts. */
-static int unit_flag(const char *unit)
+/* A curve on a surface that is written too. */
+static void put_on_surface(struct iges_writer *w, const struct entity *e, int base)
 {
-	static const char *const name[] = { "in", "mm",  NULL, "ft", "mi", "m",
-		                            "km", "mil", "um", "cm", "uin" };
-	for (size_t i = 0; unit && i < sizeof name / sizeof name[0]; i++)
-		if (name[i] && strcmp(unit, name[i]) == 0)
-			return (int)i + 1;
-	return unit ? 3 : 2;
+	int color = e->has_color ? -put_color(w, e->color) : 0;
+	int name = e->name && e->name[0] ? iges_put_name(w, e->name) : 0;
+	int uv = iges_put_curve(w, &e->curve, "00010500");
+	int space = iges_put_curve(w, &e->space, "00010000");
+	int de = iges_put_curve_on_surface(w, base, uv, space, color, name, "00000000");
+	iges_join_group(w, e, de);
 }
 
-/* Header lines: text cut into 72 columns. Returns how many. */
-static int put_header(struct text *out, char letter, const char *s, size_t n)
+static bool lies_on_one(const struct model *m, const struct entity *e)
 {
-	int lines = 0;
-	for (size_t i = 0; i < n || i == 0; i += HEADER_COLUMNS) {
-		int here = (int)(n - i < HEADER_COLUMNS ? n - i : HEADER_COLUMNS);
-		text_addf(out, "%-*.*s%c%7d\n", HEADER_COLUMNS, here, s + i, letter, ++lines);
-	}
-	return lines;
+	return e->kind == ENTITY_CURVE_ON_SURFACE && e->space.order && e->surface >= 0 &&
+	       e->surface < m->n;
 }
 
-/* Largest coordinate, which the header wants. */
-static double largest_coordinate(const struct model *m)
+static enum status put_entities(struct iges_writer *w, const struct model *m)
 {
-	double x = 0;
-	for (int i = 0; i < m->n; i++) {
-		const struct entity *e = &m->entities[i];
-		const struct curve *c = curve_of(e);
-		if (!c && e->kind != ENTITY_SURFACE)
-			continue;
-		const double *p = c ? c->points : e->geometry.points;
-		size_t n = c ? (size_t)c->n : (size_t)e->geometry.n[0] * e->geometry.n[1];
-		for (size_t k = 0; k < 4 * n; k++)
-			if (k % 4 != 3)
-				x = fmax(x, fabs(p[k] / p[k | 3]));
-	}
-	return x;
+	int *shape = calloc((size_t)m->n + 1, sizeof *shape);
+	if (!shape)
+		return ST_RESOURCE;
+	for (int i = 0; i < m->n; i++)
+		if (!lies_on_one(m, &m->entities[i]))
+			shape[i] = put_entity(w, &m->entities[i]);
+	for (int i = 0; i < m->n; i++)
+		if (lies_on_one(m, &m->entities[i]))
+			put_on_surface(w, &m->entities[i], shape[m->entities[i].surface]);
+	free(shape);
+	return ST_OK;
 }
 
-static int put_global(const struct model *m, struct text *out)
+bool iges_holds(const struct entity *e)
 {
-	struct text t = { 0 };
-	char unit[16] = "MM", real[REAL_SIZE];
-	if (m->unit)
-		snprintf(unit, sizeof unit, "%s", m->unit);
-	for (char *s = unit; *s; s++)
-		*s = (char)toupper((unsigned char)*s);
-	text_addf(&t, "1H,,1H;,,,6Hbatten,%zuH%s,32,38,6,308,15,,",
-	          strlen("batten " BATTEN_VERSION), "batten " BATTEN_VERSION);
-	real_text(real, m->scale);
-	text_addf(&t, "%s,%d,%zuH%s,1,,,", real, unit_flag(m->unit), strlen(unit), unit);
-	double largest = largest_coordinate(m);
-	real_text(real, 1e-9 * (largest > 0 ? largest : 1));
-	text_addf(&t, "%s,", real);
-	real_text(real, largest);
-	text_add(&t, real);
-	text_add(&t, ",,,11,0;");
-	int lines = put_header(out, 'G', t.s ? t.s : "", t.n);
-	out->failed |= t.failed;
-	text_finish(&t);
-	return lines;
+	return e->kind == ENTITY_CURVE || e->kind == ENTITY_SURFACE ||
+	       (e->kind == ENTITY_CURVE_ON_SURFACE && e->space.order > 0) ||
+	       (e->kind == ENTITY_POINTS && e->points.dimension == 3 && e->points.n > 0);
 }
 
 void iges_format(const struct model *m, struct text *out)
 {
-	static const char start[] = "curves and surfaces written by batten";
 	struct iges_writer w = { 0 };
-	for (int i = 0; i < m->n; i++)
-		put_entity(&w, &m->entities[i]);
+	w.data.failed |= put_entities(&w, m) != ST_OK;
 	iges_put_groups(&w);
-	int n_s = put_header(out, 'S', start, sizeof start - 1);
-	int n_g = put_global(m, out);
+	int n_s = iges_put_start(out);
+	int n_g = iges_put_global(m, out);
 	text_add_bytes(out, w.directory.s, w.directory.n);
 	text_add_bytes(out, w.data.s, w.data.n);
 	text_addf(out, "S%7dG%7dD%7dP%7d%40sT%7d\n", n_s, n_g, w.n_d, w.n_p, "", 1);

@@ -25,7 +25,20 @@ static int put_chain(struct iges_writer *w, const int *curves, int n, const char
 	return de;
 }
 
-/* 142: of no known origin; the curve in u,v is the one that counts. */
+/* Of no known origin; the curve in u,v is the one that counts. */
+int iges_put_curve_on_surface(struct iges_writer *w, int base, int uv, int space, int color,
+                              int name, const char *status)
+{
+	int de = iges_begin(w, 142);
+	iges_put_int(w, 0, ',');
+	iges_put_int(w, base, ',');
+	iges_put_int(w, uv, ',');
+	iges_put_int(w, space, ',');
+	iges_put_int(w, 1, ',');
+	iges_end(w, 142, color, name, status);
+	return de;
+}
+
 static enum status put_loop(struct iges_writer *w, const struct trim_loop *l,
                             const struct surface *s, int base, int *de)
 {
@@ -44,13 +57,7 @@ static enum status put_loop(struct iges_writer *w, const struct trim_loop *l,
 	}
 	if (st == ST_OK) {
 		int space = put_chain(w, curves, l->n, part);
-		*de = iges_begin(w, 142);
-		iges_put_int(w, 0, ',');
-		iges_put_int(w, base, ',');
-		iges_put_int(w, uv, ',');
-		iges_put_int(w, space, ',');
-		iges_put_int(w, 1, ',');
-		iges_end(w, 142, 0, 0, part);
+		*de = iges_put_curve_on_surface(w, base, uv, space, 0, 0, part);
 	}
 	free(curves);
 	return st;

@@ -86,9 +86,14 @@ enum status iges_name_behind(struct iges_cursor *c, struct entity *out)
 	return st == ST_OK ? read_properties(c, out) : st;
 }
 
-/* Behind a face's own parameters. */
+/* Behind the own parameters of a face or a 142. */
 static void skip_face(struct iges_cursor *c, int type)
 {
+	if (type == 142) {
+		for (int i = 0; i < 5; i++)
+			iges_int(c);
+		return;
+	}
 	if (type != 510)
 		iges_int(c);
 	iges_int(c);

@@ -57,6 +57,7 @@ struct iges_entry {
 	char state;        /* of a definition, while it is looked for circles */
 	int uses;          /* last of its uses, in uses[], -1: none */
 	int group;         /* in group_names[], of which it is a member; -1: of none with a name */
+	int place;         /* in the model, of what was read of it, from 1; 0: nothing */
 	int first_edge;    /* in bounds[]: curves that bound the faces on it; -1: none */
 };
 

@@ -3,6 +3,7 @@
 #define BATTEN_IGES_WRITER_H
 
 #include "iges.h"
+#include "number.h"
 
 /* An entity written that belongs to a group. */
 struct iges_member {
@@ -20,9 +21,17 @@ struct iges_writer {
 	int n_members;
 };
 
+/* Reals of IGES have a point, and E before the exponent. Returns the length. */
+enum { IGES_REAL_SIZE = NUMBER_SIZE + 2 };
+size_t iges_real_text(char out[IGES_REAL_SIZE], double x);
+
+/* The curve of an entity that 126 can hold; NULL for none. */
+const struct curve *iges_curve_of(const struct entity *e);
+
 /* One entity: begin, its numbers, end with its color (0, or minus a 314) and status number. Gives
  * its directory entry. Names are properties, written before. */
 int iges_begin(struct iges_writer *w, int type);
+void iges_put_real(struct iges_writer *w, double x, char delimiter);
 void iges_put_int(struct iges_writer *w, int x, char delimiter);
 void iges_end(struct iges_writer *w, int type, int color, int name, const char *status);
 
@@ -40,6 +49,14 @@ int iges_put_curve(struct iges_writer *w, const struct curve *c, const char *sta
  * and all that they need. Errors: ST_RESOURCE. */
 enum status iges_put_trims(struct iges_writer *w, const struct entity *e, int base, int color,
                            int name);
+
+/* A 142: a curve in u,v of the surface at `base`, which counts, and in space. */
+int iges_put_curve_on_surface(struct iges_writer *w, int base, int uv, int space, int color,
+                              int name, const char *status);
+
+/* iges_format_header.c: how many lines. */
+int iges_put_start(struct text *out);
+int iges_put_global(const struct model *m, struct text *out);
 
 /* iges_format_groups.c: note that `de` shows e, which may be of a group; write all groups that were
  * met, 402 form 7 with their names. Without memory w->data fails. */

@@ -25,18 +25,12 @@ static bool is_points(const struct entity *e)
 	return e->kind == ENTITY_POINTS;
 }
 
-static bool is_spline(const struct entity *e)
-{
-	return e->kind == ENTITY_CURVE || e->kind == ENTITY_SURFACE ||
-	       (e->kind == ENTITY_CURVE_ON_SURFACE && e->space.order > 0);
-}
-
 static const struct model_format formats[] = {
 	{ ".base", "all geometry", true, any, base_write, NULL },
 	{ ".csv", "points", false, is_points, csv_write, NULL },
 	{ ".g2", "curves, surfaces and points in space", false, g2_holds, g2_write, NULL },
-	{ ".iges", "curves and surfaces", false, is_spline, iges_write, NULL },
-	{ ".igs", "curves and surfaces", false, is_spline, iges_write, NULL },
+	{ ".iges", "curves, surfaces and points in space", false, iges_holds, iges_write, NULL },
+	{ ".igs", "curves, surfaces and points in space", false, iges_holds, iges_write, NULL },
 	{ ".obj", "surfaces as triangles", false, is_surface, NULL, obj_write },
 	{ ".ply", "surfaces as triangles", false, is_surface, NULL, ply_write },
 	{ ".stl", "surfaces as triangles", false, is_surface, NULL, stl_write },

@@ -31,8 +31,11 @@ static void written_is_read_again(void **state)
 	assert_true(iges_recognise(t.s, t.n));
 	if (iges_parse(&b, t.s, t.n, "y.igs", NULL, &store.report) != ST_OK)
 		fail_msg("%s", store.error);
-	assert_int_equal(b.n, 2);
+	assert_int_equal(b.n, 3);
 	assert_int_equal(b.n_skipped, 0);
+	assert_int_equal(b.entities[2].points.n, 1);
+	assert_memory_equal(b.entities[2].points.values, a.entities[2].points.values,
+	                    3 * sizeof(double));
 	assert_string_equal(b.unit, "m");
 	assert_true(b.scale == 0.5 && b.unit_in_mm == 1000);
 	const struct curve *c = &a.entities[0].curve, *d = &b.entities[0].curve;
@@ -47,6 +50,52 @@ static void written_is_read_again(void **state)
 	assert_memory_equal(b.entities[1].color, a.entities[1].color, sizeof b.entities[1].color);
 	for (const char *line = t.s; *line; line = strchr(line, '\n') + 1)
 		assert_int_equal(strchr(line, '\n') - line, 80);
+	model_finish(&a);
+	model_finish(&b);
+	text_finish(&t);
+}
+
+/* Curves on a surface stay on it, with name, color and group; lists of points stay one. */
+static void curves_on_surfaces_and_points_are_kept(void **state)
+{
+	static const struct made_entity entities[MADE_MAX] = {
+		{ 142, 0, "142,0,3,5,0,1,0,1,9;", 0, 3 },
+		{ 128, 0, SQUARE },
+		{ 126, 0,
+		  "126,2,2,0,0,1,0,0.,0.,0.,1.,1.,1.,1.,1.,1.,0.,0.,0.,.5,.25,0.,1.,1.,0.,0.,1.;" },
+		{ 106, 2, "106,2,3,1.,2.,3.,.1,.2,.3,4.,5.,6.;", 0, 0, NULL, "OFFSETS" },
+		{ 406, 15, "406,1,4Hknot;" },
+		{ 402, 7, "402,2,1,7,0,1,13;" },
+		{ 406, 15, "406,1,5Hlines;" },
+	};
+	const struct made_file f = { 0 };
+	struct model a, b;
+	struct report_store store;
+	struct text t = { 0 };
+	(void)state;
+	assert_int_equal(read_made(&a, &f, entities, &store), ST_OK);
+	iges_format(&a, &t);
+	assert_false(t.failed);
+	model_init(&b);
+	assert_int_equal(iges_parse(&b, t.s, t.n, "y.igs", NULL, NULL), ST_OK);
+	const struct model *both[] = { &a, &b };
+	for (int i = 0; i < 2; i++) {
+		const struct entity *last = &both[i]->entities[both[i]->n - 1], *points = last - 1;
+		assert_int_equal(both[i]->n_skipped, 0);
+		assert_int_equal(last->kind, ENTITY_CURVE_ON_SURFACE);
+		assert_string_equal(last->name, "knot");
+		assert_true(last->has_color && last->color[1] == 1);
+		assert_string_equal(entity_get_attribute(last, "group"), "lines");
+		assert_int_equal(both[i]->entities[last->surface].kind, ENTITY_SURFACE);
+		assert_true(vec3_length(vec3_sub(curve_point(&last->curve, 0.5),
+		                                 vec3(0.5, 0.375, 0))) < 1e-15);
+		assert_true(vec3_length(vec3_sub(curve_point(&last->space, 0.5),
+		                                 vec3(0.5, 0.375, 0))) < 1e-6);
+		assert_int_equal(points->kind, ENTITY_POINTS);
+		assert_string_equal(points->name, "OFFSETS");
+		assert_int_equal(points->points.n, 3);
+		assert_true(points->points.values[5] == 0.3 && points->points.values[7] == 5);
+	}
 	model_finish(&a);
 	model_finish(&b);
 	text_finish(&t);
@@ -161,6 +210,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(written_is_read_again),
+		cmocka_unit_test(curves_on_surfaces_and_points_are_kept),
 		cmocka_unit_test(only_what_is_meant_is_written),
 		cmocka_unit_test(groups_are_kept),
 		cmocka_unit_test(a_missing_unit_is_told),
