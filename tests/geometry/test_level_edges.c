@@ -116,12 +116,49 @@ static void test_files(void **state)
 	surface_finish(&s);
 }
 
+/* Patches far narrower than the tolerance: the same curves, with bounds as good as rounding of f allows. */
+static void slivers_keep_the_tolerance(void **state)
+{
+	(void)state;
+	static const struct {
+		enum level_kind kind;
+		struct vec3 direction;
+		double value;
+		size_t branches, closed;
+	} fields[] = { { LEVEL_PLANE, { 0, 0, 1 }, 0.3, 18, 18 },
+		       { LEVEL_ISOPHOTE, { 0, 0, 1 }, 0.81915204428899178, 85, 61 },
+		       { LEVEL_SILHOUETTE, { 0.8, 0.36, 0.48 }, 0, 12, 0 } };
+	static const struct {
+		double width, bound;
+	} slivers[] = { { 1e-5, 1.01e-5 }, { 1e-6, 1.01e-5 }, { 1e-8, 3e-4 } };
+	struct surface s = wavy();
+	for (size_t k = 0; k < sizeof slivers / sizeof *slivers; k++) {
+		const double knots[2] = { 0.511, 0.511 + slivers[k].width };
+		struct surface cut;
+		assert_int_equal(surface_insert(&cut, &s, 0, knots, 2), ST_OK);
+		for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
+			struct level_result x;
+			assert_int_equal(shape_trace(&cut, fields[i].kind, fields[i].direction,
+			                             fields[i].value, 1e-5, &x, NULL),
+			                 ST_OK);
+			assert_int_equal(x.n_branches, fields[i].branches);
+			assert_int_equal(x.n_closed, fields[i].closed);
+			assert_int_equal(x.n_undecided, 0);
+			assert_true(x.max_error <= slivers[k].bound);
+			level_result_finish(&x);
+		}
+		surface_finish(&cut);
+	}
+	surface_finish(&s);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_crease),
 		cmocka_unit_test(test_fading_crease),
 		cmocka_unit_test(test_files),
+		cmocka_unit_test(slivers_keep_the_tolerance),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,11 @@
 
 enum { FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000, PARTS_MAX = 8 };
 
+/* A piece so much shorter than the tolerance may be proved by the strip that it is in; one so many times narrower than
+ * its strip is not made shorter. */
+#define STRIP_SHARE  0.25
+#define BAND_LENGTHS 20.0
+
 /* The last step to the curve is below this part of the tolerances. */
 #define STEP_SHARE 0.01
 
@@ -29,10 +34,9 @@ enum { FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000, PARTS_MAX = 8
 
 struct follower {
 	struct tracer *t;
-	const struct cell_range *box;
-	int along;   /* the direction that the arc is a graph over */
-	bool rising; /* f rises in the other */
-	double turn; /* sign that makes tangents point along the graph's variable */
+	struct strip strip; /* the cell */
+	int along;          /* the direction that the arc is a graph over */
+	double turn;        /* sign that makes tangents point along the graph's variable */
 	size_t first;
 	struct prover prover;
 	const double *c; /* f in the prover's box, and its error */
@@ -71,7 +75,7 @@ static void station_set(const struct follower *w, const struct field_point *x, d
 static void station_find(const struct follower *w, double uv[2], struct station *out)
 {
 	int other = 1 - w->along;
-	double lo = w->box->lo[other], hi = w->box->hi[other],
+	double lo = w->strip.box->lo[other], hi = w->strip.box->hi[other],
 	       y = smaller(larger(uv[other], lo), hi);
 	struct field_point x;
 	double last = INFINITY;
@@ -90,7 +94,7 @@ static void station_find(const struct follower *w, double uv[2], struct station 
 			break;
 		}
 		last = fabs(move);
-		if ((x.f > 0) == w->rising)
+		if ((x.f > 0) == w->strip.rising)
 			hi = y;
 		else
 			lo = y;
@@ -186,29 +190,54 @@ static void tiny_prove(const struct follower *w, const struct station *a, const 
 }
 
 /*
- * Without a look at f: between its ends the curve is a graph over one direction, in the cell in the other, and
- * the cubics are in their control points' hull. In a patch that is a sliver that is enough.
+ * Between its ends the curve is a graph over one direction, in the other between `lo` and `hi`; the cubics are
+ * in their control points' hull, which is near the first end.
  */
-static struct proof rough_proof(const struct follower *w, const struct station *a,
-                                const struct station *b, double size, double length)
+static struct proof box_proof(const struct follower *w, const struct station *a,
+                              const struct station *b, double size, double length, double lo,
+                              double hi)
 {
 	const struct prover *p = &w->prover;
+	const int other = 1 - w->along;
 	const double reach = 1.15 * length / 3; /* lengths are corrected by no more */
-	double space = size + 3 * reach, extent[2];
+	double space = size + reach, extent[2];
+	extent[w->along] = fabs(a->uv[w->along] - b->uv[w->along]);
+	extent[other] = larger(hi - smaller(a->uv[other], b->uv[other]),
+	                       larger(a->uv[other], b->uv[other]) - lo);
 	for (int d = 0; d < 2; d++) {
-		double lo = smaller(a->uv[d], b->uv[d]), hi = larger(a->uv[d], b->uv[d]);
-		if (d != w->along) {
-			lo = w->box->lo[d];
-			hi = w->box->hi[d];
-		}
-		extent[d] = hi - lo + reach * (fabs(a->duv[d]) + fabs(b->duv[d]));
 		space += p->shape->first[d] * extent[d];
+		extent[d] += fabs(a->uv[d] - b->uv[d]) +
+		             reach * larger(fabs(a->duv[d]), fabs(b->duv[d]));
 	}
 	return (struct proof){
 		.space = smaller(2 * p->diameter, space),
 		.uv = smaller(2 * p->diameter_uv,
 		              length2(p->width[0] * extent[0], p->width[1] * extent[1])),
 	};
+}
+
+/* Without a look at f: in a patch that is a sliver that is enough. */
+static struct proof rough_proof(const struct follower *w, const struct station *a,
+                                const struct station *b, double size, double length)
+{
+	const int other = 1 - w->along;
+	return box_proof(w, a, b, size, length, w->strip.box->lo[other], w->strip.box->hi[other]);
+}
+
+/* From where f has a sure sign beside the piece. If that is much farther away than the piece is long it is rounding
+ * that keeps it there, and no shorter piece does better. */
+static struct proof strip_proof(const struct follower *w, const struct station *a,
+                                const struct station *b, double size, double length)
+{
+	const int other = 1 - w->along;
+	double side[2];
+	level_strip_bound(&w->strip, a->uv, b->uv, side);
+	struct proof p = box_proof(w, a, b, size, length, side[0], side[1]);
+	if (w->prover.shape->first[other] * (side[1] - side[0]) > BAND_LENGTHS * size) {
+		p.rounding[0] = p.space;
+		p.rounding[1] = p.uv;
+	}
+	return p;
 }
 
 static void fit(const struct follower *w, const struct station *a, const struct station *b,
@@ -327,12 +356,11 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 		tiny_prove(w, a, b, size, &best);
 	bool enough = tiny || depth >= FIT_DEPTH_MAX ||
 	              (depth > FIT_DEPTH_EASY && w->t->pieces.n - w->first > PIECES_MAX);
+	if ((enough || size < STRIP_SHARE * tolerance) && !good(w, &best)) {
+		proof = strip_proof(w, a, b, size, first);
+		proof_improve(&best, &proof);
+	}
 	if (good(w, &best) || enough || w->t->failed) {
-		if (!small && !good(w, &best)) {
-			proof = rough_proof(w, a, b, size, first);
-			best.space = smaller(best.space, proof.space);
-			best.uv = smaller(best.uv, proof.uv);
-		}
 		x.error = best.space;
 		x.error_uv = best.uv;
 		piece_add(w, &x);
@@ -347,9 +375,8 @@ void level_arc_follow(struct tracer *t, const struct cell_range *box, const doub
 	/* (-fv, fu) points towards larger v where fu > 0, towards larger u where fv < 0 */
 	double turn = (along == 1) == rising ? 1 : -1;
 	struct follower w = { .t = t,
-		              .box = box,
+		              .strip = { box, c, t->level->degree, error, along, rising },
 		              .along = along,
-		              .rising = rising,
 		              .turn = turn,
 		              .first = t->pieces.n };
 	struct station s[2];

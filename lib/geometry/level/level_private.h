@@ -390,6 +390,19 @@ void level_sample_sums(const struct proof_tables *table, const double v[PROOF_NO
 bool level_prove(const struct prover *p, const struct piece *x, const struct proof_middle *mid,
                  struct proof *out);
 
+/* A cell in which a curve is a graph over direction `along`, f rising in the other or falling; f there. */
+struct strip {
+	const struct cell_range *box;
+	const double *c;
+	const int *degree;
+	double error;
+	int along;
+	bool rising;
+};
+
+/* level_strip.c: in the other direction the curve between two of its points is between these. */
+void level_strip_bound(const struct strip *s, const double a[2], const double b[2], double out[2]);
+
 /* Ends of a strand on the border of its patch, or loose inside. */
 enum strand_end_kind { STRAND_BORDER, STRAND_LOOSE, STRAND_CLOSED };
 struct strand_end {
