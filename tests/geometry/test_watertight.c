@@ -131,6 +131,21 @@ static void pipe(struct shape *x)
 	add_turned(x, vec3(0.99, 0, 0), vec3(0.99, 0, 3));
 }
 
+/* Two sheets over the same four straight borders: cut coarsely both have one diagonal. */
+static void cushion(struct shape *x)
+{
+	struct surface *s = &x->surfaces[0];
+	add_quad(x, vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0));
+	add_quad(x, vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0));
+	for (int d = 0; d < 2; d++) {
+		struct surface raised;
+		assert_int_equal(surface_elevate(&raised, s, d, 1), ST_OK);
+		surface_finish(s);
+		*s = raised;
+	}
+	surface_set_point(s, 1, 1, vec3(0.5, 0.5, 5), 1);
+}
+
 static void ball(struct shape *x)
 {
 	assert_int_equal(make_sphere(&x->surfaces[x->n++], vec3(0, 0, 0), 2), ST_OK);
@@ -181,6 +196,7 @@ static const struct {
 	{ "drum", drum, 2, 6.28318530717958647692, NULL },
 	{ "bored block", bored_block, 0, 16 - 3.14159265358979323846, NULL },
 	{ "pipe", pipe, 0, 3 * 3.14159265358979323846 * (1 - 0.99 * 0.99), NULL },
+	{ "cushion", cushion, 2, 5.0 / 9, NULL },
 	{ "ball", ball, 2, 32 * 3.14159265358979323846 / 3, off_ball },
 	{ "ball in parts", ball_in_parts, 2, 32 * 3.14159265358979323846 / 3, off_ball },
 	{ "ring", ring, 0, 6 * 9.8696044010893586, off_ring },

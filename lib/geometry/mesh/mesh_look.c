@@ -3,11 +3,7 @@
 
 #include <stdlib.h>
 
-/* An edge of a triangle, kept at the lower of its two points. */
-struct half {
-	int high, triangle;
-	bool up; /* it runs from the lower point to the higher one */
-};
+#include "mesh_uses.h"
 
 struct open_edge {
 	int low, high, part;
@@ -17,53 +13,12 @@ struct open_edge {
 struct look {
 	const struct mesh *m;
 	struct mesh_looks *out;
-	int *first;              /* owned; of each point its first half, and one behind the last */
-	struct half *halves;     /* owned */
+	struct mesh_uses uses;   /* owned */
 	struct open_edge *edges; /* owned */
 	int n_edges, room;
 	int *root;   /* owned; of each point one that open edges join it with */
 	int *border; /* owned; of each root its border, -1: none */
 };
-
-static void ends_of(const struct mesh *m, int triangle, int corner, int *low, int *high, bool *up)
-{
-	const int p = m->triangles[triangle][corner].point;
-	const int q = m->triangles[triangle][(corner + 1) % 3].point;
-	*up = p < q;
-	*low = *up ? p : q;
-	*high = *up ? q : p;
-}
-
-static int by_high(const void *a, const void *b)
-{
-	const struct half *p = a, *q = b;
-	return p->high != q->high ? p->high - q->high : p->triangle - q->triangle;
-}
-
-static enum status find_halves(struct look *x)
-{
-	const struct mesh *m = x->m;
-	int low, high;
-	bool up;
-	x->first = calloc((size_t)m->n_points + 2, sizeof *x->first);
-	x->halves = malloc((3 * (size_t)m->n_triangles + 1) * sizeof *x->halves);
-	if (!x->first || !x->halves)
-		return ST_RESOURCE;
-	for (int t = 0; t < m->n_triangles; t++)
-		for (int k = 0; k < 3; k++) {
-			ends_of(m, t, k, &low, &high, &up);
-			x->first[low + 2]++;
-		}
-	for (int p = 0; p < m->n_points; p++)
-		x->first[p + 2] += x->first[p + 1];
-	/* first[low + 1] is where that point's next one goes, and at last where they end */
-	for (int t = 0; t < m->n_triangles; t++)
-		for (int k = 0; k < 3; k++) {
-			ends_of(m, t, k, &low, &high, &up);
-			x->halves[x->first[low + 1]++] = (struct half){ high, t, up };
-		}
-	return ST_OK;
-}
 
 static int root_of(int *root, int point)
 {
@@ -85,7 +40,7 @@ static int part_of(const struct mesh *m, int triangle)
 	return lo;
 }
 
-static enum status add_open(struct look *x, int low, const struct half *h)
+static enum status add_open(struct look *x, int low, const struct mesh_use *h)
 {
 	if (x->n_edges == x->room) {
 		const int more = x->room ? 2 * x->room : 64;
@@ -106,9 +61,8 @@ static enum status count_uses(struct look *x)
 {
 	enum status st = ST_OK;
 	for (int p = 0; p < x->m->n_points; p++) {
-		struct half *h = x->halves + x->first[p];
-		const int n = x->first[p + 1] - x->first[p];
-		qsort(h, (size_t)n, sizeof *h, by_high);
+		const struct mesh_use *h = x->uses.list + x->uses.first[p];
+		const int n = x->uses.first[p + 1] - x->uses.first[p];
 		for (int i = 0, k; i < n && st == ST_OK; i = k) {
 			for (k = i + 1; k < n && h[k].high == h[i].high; k++)
 				;
@@ -176,7 +130,7 @@ enum status mesh_look(struct mesh_looks *out, const struct mesh *m)
 {
 	struct look x = { .m = m, .out = out };
 	*out = (struct mesh_looks){ 0 };
-	enum status st = find_halves(&x);
+	enum status st = mesh_uses_init(&x.uses, m);
 	x.root = malloc(((size_t)m->n_points + 1) * sizeof *x.root);
 	x.border = malloc(((size_t)m->n_points + 1) * sizeof *x.border);
 	if (!x.root || !x.border)
@@ -189,8 +143,7 @@ enum status mesh_look(struct mesh_looks *out, const struct mesh *m)
 		st = count_uses(&x);
 	if (st == ST_OK)
 		st = gather(&x);
-	free(x.first);
-	free(x.halves);
+	mesh_uses_finish(&x.uses);
 	free(x.edges);
 	free(x.root);
 	free(x.border);

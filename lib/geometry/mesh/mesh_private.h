@@ -83,7 +83,8 @@ struct mesh_build {
 	int *members; /* owned */
 	double gap;   /* the widest that was closed */
 	int round;    /* of joining */
-	bool told;    /* why it cannot be was said */
+	bool parameters; /* of corners are kept */
+	bool told;       /* why it cannot be was said */
 };
 
 /* The steps, for those who watch. */

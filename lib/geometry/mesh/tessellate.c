@@ -96,7 +96,7 @@ enum status mesh_add_triangle(struct mesh_build *b, const struct mesh_corner cor
 	struct mesh *m = b->out;
 	enum status st = mesh_grow((void **)&m->triangles, &b->triangles_room, m->n_triangles + 1,
 	                           sizeof *m->triangles);
-	if (st == ST_OK && b->limits->parameters) {
+	if (st == ST_OK && b->parameters) {
 		st = mesh_grow((void **)&m->parameters, &b->parameters_room, m->n_triangles + 1,
 		               sizeof *m->parameters);
 		if (st == ST_OK)
@@ -194,9 +194,13 @@ enum status tessellate(struct mesh *out, const struct tessellate_face *faces, in
                        const struct tessellate_limits *limits, const struct tessellate_watch *watch,
                        const struct report *r)
 {
-	struct mesh_build b = {
-		.faces = faces, .n_faces = n, .limits = limits, .watch = watch, .r = r, .out = out
-	};
+	struct mesh_build b = { .faces = faces,
+		                .n_faces = n,
+		                .limits = limits,
+		                .watch = watch,
+		                .r = r,
+		                .out = out,
+		                .parameters = true };
 	*out = (struct mesh){ 0 };
 	if (!(limits->chord > 0) || !(limits->angle > 0) || !(limits->join >= 0) || n < 1)
 		return report_error(r, ST_PARAMETER,
