@@ -36,19 +36,27 @@ static void add_number(struct text *t, double x)
 		text_add(t, "null");
 }
 
+static void add_key(struct text *t, const char *key)
+{
+	text_add(t, ",\"");
+	text_add(t, key);
+	text_add(t, "\":");
+}
+
 static void add_field(struct text *t, const char *key, double x)
 {
-	text_addf(t, ",\"%s\":", key);
+	add_key(t, key);
 	add_number(t, x);
 }
 
 static void add_vector(struct text *t, const char *key, struct vec3 p)
 {
+	add_key(t, key);
 	if (!isfinite(p.x + p.y + p.z)) {
-		text_addf(t, ",\"%s\":null", key);
+		text_add(t, "null");
 		return;
 	}
-	text_addf(t, ",\"%s\":[", key);
+	text_add(t, "[");
 	text_add_number(t, p.x);
 	text_add(t, ",");
 	text_add_number(t, p.y);

@@ -214,6 +214,119 @@ static bool write_thousandths(char *out, double x, int *n)
 	return true;
 }
 
+/* Decimal digits d, the first of them worth 10^e, as printf's %g has them. */
+static int write_digits(char *out, bool negative, uint64_t d, int e, int n_digits)
+{
+	char digits[DIGITS_MAX + 1], *p = out;
+	int n = n_digits;
+
+	for (int i = n - 1; i >= 0; i--, d /= 10)
+		digits[i] = (char)('0' + d % 10);
+	while (n > 1 && digits[n - 1] == '0')
+		n--;
+	if (negative)
+		*p++ = '-';
+	if (e < -4) {
+		*p++ = digits[0];
+		if (n > 1)
+			*p++ = '.';
+		memcpy(p, digits + 1, (size_t)n - 1);
+		p += n - 1;
+		return (int)(p - out) + sprintf(p, "e-%02d", -e);
+	}
+	if (e < 0) {
+		*p++ = '0';
+		*p++ = '.';
+		for (int i = e + 1; i < 0; i++)
+			*p++ = '0';
+		memcpy(p, digits, (size_t)n);
+		p += n;
+	} else {
+		for (int i = 0; i < n || i <= e; i++) {
+			if (i == e + 1)
+				*p++ = '.';
+			*p++ = i < n ? digits[i] : '0';
+		}
+	}
+	*p = 0;
+	return (int)(p - out);
+}
+
+#ifdef __SIZEOF_INT128__
+typedef unsigned __int128 wide;
+
+static wide wide_power10(int k)
+{
+	static const uint64_t power[] = { 1,
+		                          10,
+		                          100,
+		                          1000,
+		                          10000,
+		                          100000,
+		                          1000000,
+		                          10000000,
+		                          100000000,
+		                          1000000000,
+		                          10000000000,
+		                          100000000000,
+		                          1000000000000,
+		                          10000000000000,
+		                          100000000000000,
+		                          1000000000000000,
+		                          10000000000000000,
+		                          100000000000000000,
+		                          1000000000000000000 };
+	return k <= 18 ? power[k] : (wide)power[18] * power[k - 18];
+}
+
+/*
+ * What printf and reading it back would come to, in whole numbers of 128 bits: x is m 2^-s, its
+ * digits are m 10^k 2^-s rounded, and they read back as x where they are off by less than half of
+ * x's last place, 10^k / 2 in the same unit. False where that does not fit, or where the place below
+ * x is narrower.
+ */
+static bool write_exact(char *out, double x, int *n)
+{
+	uint64_t bits, m;
+
+	memcpy(&bits, &x, sizeof bits);
+	const int s = 1075 - (int)(bits >> 52 & 0x7ff);
+	m = bits & ((UINT64_C(1) << 52) - 1);
+	if (s < 4 || s > 69 || m == 0)
+		return false;
+	m |= UINT64_C(1) << 52;
+	/* floor of the logarithm, or one less: 315653 / 2^20 is a little below log10(2) */
+	int e = ((52 - s) * 315653) >> 20;
+	if (m * wide_power10(16 - e) >> s >= wide_power10(17))
+		e++;
+	for (int digits = 15; digits <= 17; digits++) {
+		const int k = digits - 1 - e;
+		const wide exact = m * wide_power10(k), one = (wide)1 << s,
+		           rest = exact & (one - 1);
+		uint64_t d = (uint64_t)(exact >> s);
+		const bool up = 2 * rest > one || (2 * rest == one && (d & 1));
+		const wide off = 2 * (up ? one - rest : rest), half = wide_power10(k);
+
+		if (off > half || (off == half && (m & 1)))
+			continue;
+		d += up;
+		if (d == (uint64_t)wide_power10(digits)) {
+			d /= 10;
+			e++;
+		}
+		*n = write_digits(out, x < 0, d, e, digits);
+		return true;
+	}
+	return false;
+}
+#else
+static bool write_exact(char *out, double x, int *n)
+{
+	(void)out, (void)x, (void)n;
+	return false;
+}
+#endif
+
 int number_write(char out[NUMBER_SIZE], double x)
 {
 	if (isnan(x))
@@ -225,6 +338,8 @@ int number_write(char out[NUMBER_SIZE], double x)
 		return n;
 	if (fabs(x) < 1e15 && x == (double)(int64_t)x && !(x == 0 && signbit(x)))
 		return sprintf(out, "%" PRId64, (int64_t)x);
+	if (write_exact(out, x, &n))
+		return n;
 	for (int digits = 15; digits <= 17; digits++) {
 		double back;
 		n = sprintf(out, "%.*g", digits, x);

@@ -181,6 +181,34 @@ static void few_decimals_are_as_printf_has_them(void **state)
 	}
 }
 
+/* Whatever its size a number has printf's digits, as few as read back. */
+static void digits_are_as_printf_has_them(void **state)
+{
+	char s[NUMBER_SIZE], other[40];
+
+	(void)state;
+	for (int i = 0; i < 200000; i++) {
+		uint64_t bits = random_bits();
+		double x = ldexp((double)(bits >> 11), (int)(random_bits() % 80) - 85);
+		int digits = 15;
+		if (i % 3 == 0) { /* few digits, or next to few */
+			snprintf(other, sizeof other, "%.*g", 1 + i % 17, x);
+			x = strtod(other, NULL);
+			if (i % 2)
+				x = nextafter(x, i % 4 < 2 ? 0 : 1e9);
+		}
+		if (i % 5 == 0)
+			x = -x;
+		if (x == trunc(x))
+			continue;
+		do
+			snprintf(other, sizeof other, "%.*g", digits, x);
+		while (strtod(other, NULL) != x && ++digits <= 17);
+		number_write(s, x);
+		assert_string_equal(s, other);
+	}
+}
+
 static void integers(void **state)
 {
 	int64_t x;
@@ -204,6 +232,7 @@ int main(void)
 		cmocka_unit_test(written_numbers_read_back),
 		cmocka_unit_test(writes_the_shortest),
 		cmocka_unit_test(few_decimals_are_as_printf_has_them),
+		cmocka_unit_test(digits_are_as_printf_has_them),
 		cmocka_unit_test(integers),
 	};
 
