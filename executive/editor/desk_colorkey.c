@@ -39,7 +39,7 @@ static const char *note_of(struct scraps *s, const struct colormap *m)
 static const char *const symbol[N_QUANTITIES] = { "K", "H", "|k|", "k max", "k min", "k u", "k v" };
 
 /* The surface is to show values, and those it had belong to what it was. */
-static void paint_no_values(struct desk *d, cairo_t *cr)
+static void paint_no_values(struct desk *d, cairo_t *cr, const struct box_px *view)
 {
 	const struct Ful *f = world_current(d->world, false);
 	struct key_model m = { .title = "", .note = "", .unit = "" };
@@ -48,7 +48,7 @@ static void paint_no_values(struct desk *d, cairo_t *cr)
 		return;
 	m.symbol = symbol[d->quantity];
 	m.button = "CALCULATE";
-	panel_key(cr, &d->layout.view, &m, &d->look, &d->hits[PART_OVER]);
+	panel_key(cr, view, &m, &d->look, &d->hits[PART_OVER]);
 }
 
 /* Its button. */
@@ -60,14 +60,18 @@ void desk_key_calculate(struct desk *d)
 	desk_run_code(d, world_sight(d->world)->all_curvatures ? "V79" : code, NULL, NULL);
 }
 
-void desk_paint_keys(struct desk *d, cairo_t *cr, struct scraps *s)
+/* low: what a bar takes at the top. */
+void desk_paint_keys(struct desk *d, cairo_t *cr, struct scraps *s, double low)
 {
+	struct box_px view = d->layout.view;
 	const struct overlay *o = shown_map(d);
 	struct key_model m = { .title = "", .note = "", .symbol = "", .unit = "" };
 	struct key k;
 
+	view.y += low;
+	view.height -= low;
 	if (!o) {
-		paint_no_values(d, cr);
+		paint_no_values(d, cr, &view);
 		return;
 	}
 	d->quantity = o->quantity;
@@ -89,7 +93,7 @@ void desk_paint_keys(struct desk *d, cairo_t *cr, struct scraps *s)
 	} else {
 		m.note = "no values yet";
 	}
-	panel_key(cr, seven ? &eighth : &d->layout.view, &m, &d->look, &d->hits[PART_OVER]);
+	panel_key(cr, seven ? &eighth : &view, &m, &d->look, &d->hits[PART_OVER]);
 }
 
 /* Of every map that is shown: they have one key. */

@@ -335,7 +335,7 @@ void desk_fill_help(struct desk *d);
 void desk_fill_list(struct desk *d);
 void desk_paint_over(struct desk *d, cairo_t *cr);
 void desk_paint_probe(struct desk *d, cairo_t *cr);
-void desk_paint_keys(struct desk *d, cairo_t *cr, struct scraps *s);
+void desk_paint_keys(struct desk *d, cairo_t *cr, struct scraps *s, double low);
 bool desk_key_press(struct desk *d, const struct hit *h); /* an end of a color key */
 void desk_key_move(struct desk *d);
 void desk_key_calculate(struct desk *d);

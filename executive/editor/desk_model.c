@@ -61,6 +61,15 @@ static const char *label_of(struct scraps *s, const struct argument_row *row)
 	return scraps_print(s, "%c%s", *text - 'a' + 'A', text + 1);
 }
 
+/* "file" is the unit of the file of what it is done to. */
+static const char *unit_of(const struct desk *d, const struct argument_row *row)
+{
+	if (!row->unit || strcmp(row->unit, "file") || d->errand)
+		return row->unit;
+	const struct Ful *f = world_selected(d->world);
+	return f && f->unit ? f->unit : "";
+}
+
 static void fill_field(struct desk *d, struct form_field *f, int k)
 {
 	const struct ask *a = &d->ask;
@@ -68,7 +77,7 @@ static void fill_field(struct desk *d, struct form_field *f, int k)
 
 	*f = (struct form_field){ .label = label_of(&d->scraps[PART_MENU], row),
 		                  .value = a->field[k].s,
-		                  .unit = row->unit,
+		                  .unit = unit_of(d, row),
 		                  .error = a->error[k],
 		                  .kind = desk_form_kind(row),
 		                  .choices = row->choices,
@@ -176,9 +185,9 @@ static void hint(struct foot_model *m, const char *key, const char *word)
 }
 
 /* "(0 to 90°)" in words. */
-static const char *range_of(struct scraps *s, const struct argument_row *row)
+static const char *range_of(const struct desk *d, struct scraps *s, const struct argument_row *row)
 {
-	const char *unit = row->unit ? row->unit : "", *blank = row->unit ? " " : "";
+	const char *unit = row->unit ? unit_of(d, row) : "", *blank = *unit ? " " : "";
 
 	if ((row->type == ARGUMENT_NUMBER || row->type == ARGUMENT_INTEGER) && row->min <= row->max)
 		return fabs(row->max) < 1e9
@@ -199,7 +208,7 @@ static void foot_of_ask(struct desk *d, struct foot_model *m, struct scraps *s)
 	m->typed = a->field[a->focus].s;
 	m->caret = a->field[a->focus].caret;
 	m->caret_on = desk_ask_textual(d);
-	m->range = range_of(s, row);
+	m->range = range_of(d, s, row);
 	if (!a->field[a->focus].n && row->def)
 		m->rest = row->def;
 	n = n > CANDIDATES_MAX ? CANDIDATES_MAX : n;
@@ -276,6 +285,8 @@ static void foot_of_page(struct desk *d, struct foot_model *m, struct scraps *s)
 		m->rest = "arrows scroll";
 		break;
 	}
+	if (d->page == PAGE_HELP)
+		hint(m, "Tab", "links");
 	hint(m, "Esc", "close");
 }
 

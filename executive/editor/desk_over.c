@@ -30,7 +30,7 @@ static const char *in_capital(struct scraps *s, const char *text)
 static const char *heading(struct desk *d, struct scraps *s, const char **note)
 {
 	const struct Ful *f = world_current(d->world, false);
-	int lines = 0, images = 0;
+	int lines = 0, images = 0, maps = 0;
 	const struct overlay *map = shown_map(d), *image = NULL;
 
 	*note = "";
@@ -38,11 +38,14 @@ static const char *heading(struct desk *d, struct scraps *s, const char **note)
 		const struct overlay *o = world_overlay(d->world, i);
 		lines += o->kind == OVERLAY_LINES;
 		images += o->kind == OVERLAY_IMAGE;
+		maps += o->kind == OVERLAY_MAP;
 		if (o->kind == OVERLAY_IMAGE)
 			image = o;
 	}
 	const struct overlay *of = map ? map : image;
-	if (of && of->file)
+	if (map && maps > 1)
+		*note = scraps_print(s, "of %d surfaces", maps);
+	else if (of && of->file)
 		*note = of->job ? scraps_print(s, "arriving from job %lld", (long long)of->job)
 		                : scraps_print(s, "%s", path_file_name(of->file));
 	if (map)
@@ -83,7 +86,7 @@ static const char *half_heading(struct desk *d, struct scraps *s, int half, cons
 	return half ? child->name : parent ? parent->name : "";
 }
 
-static void tile_headings(struct desk *d, cairo_t *cr, struct scraps *s)
+static void tile_headings(struct desk *d, cairo_t *cr, struct scraps *s, double low)
 {
 	const char *note;
 
@@ -96,7 +99,9 @@ static void tile_headings(struct desk *d, cairo_t *cr, struct scraps *s)
 			title = in_capital(s, quantity_table[t->view.quantity].title);
 			note = "";
 		}
-		panel_heading(cr, &t->box, title, note, i == d->tile, &d->look);
+		struct box_px box = t->box;
+		box.y = fmax(box.y, d->layout.view.y + low);
+		panel_heading(cr, &box, title, note, i == d->tile, &d->look);
 	}
 }
 
@@ -117,12 +122,15 @@ static void rules(struct desk *d, cairo_t *cr)
 	cairo_fill(cr);
 }
 
-static void bar(struct desk *d, cairo_t *cr)
+/* Its height; what stands at the top of the view begins below it. */
+static double bar(struct desk *d, cairo_t *cr, struct scraps *s)
 {
-	struct bar_model m = { REPORT_WARNING, d->link_reason, "Start it again" };
+	struct bar_model m = { REPORT_WARNING, in_capital(s, d->link_reason), "Start it again" };
 
-	if (d->link == LINK_GONE)
-		panel_bar(cr, &d->layout.view, &m, &d->look, &d->hits[PART_OVER]);
+	if (d->link != LINK_GONE)
+		return 0;
+	panel_bar(cr, &d->layout.view, &m, &d->look, &d->hits[PART_OVER]);
+	return panel_bar_height(cr, &d->layout.view, &m);
 }
 
 void desk_paint_over(struct desk *d, cairo_t *cr)
@@ -131,16 +139,16 @@ void desk_paint_over(struct desk *d, cairo_t *cr)
 
 	scraps_reset(s);
 	if (!world_count(d->world)) {
-		bar(d, cr);
+		bar(d, cr, s);
 		return;
 	}
 	for (int i = 0; i < d->n_tiles; i++)
 		if (d->tiles[i].is_uv)
 			desk_paint_uv(d, cr, s, &d->tiles[i].box);
 	rules(d, cr);
-	tile_headings(d, cr, s);
-	desk_paint_keys(d, cr, s);
-	bar(d, cr);
+	const double low = bar(d, cr, s);
+	tile_headings(d, cr, s, low);
+	desk_paint_keys(d, cr, s, low);
 }
 
 /* ------------------------------------------------------------ probe */

@@ -20,7 +20,7 @@ const struct key_row desk_key_table[] = {
 	{ "F4", "the last 200 messages", false },
 	{ "Z  Ctrl Z", "undo", false },
 	{ "Shift Z  Ctrl Y", "redo", false },
-	{ "Tab", "complete, or the next field", false },
+	{ "Tab", "complete, the next field, the next link", false },
 	{ "Shift Tab", "the field before", false },
 	{ "Up  Down", "candidates, steps of a value, earlier values", false },
 	{ "R  Ctrl R", "the defaults of what is asked", false },

@@ -4,7 +4,8 @@
 
 #include "world_private.h"
 
-enum { STEPS_MAX = 256 };
+/* What undo keeps at most; the oldest steps go first. Bytes. */
+static const size_t history_most = (size_t)256 << 20;
 
 static void step_finish(struct step *s)
 {
@@ -103,6 +104,28 @@ static enum status step_swap(struct world *w, struct step *s)
 	return ST_OK;
 }
 
+static size_t step_bytes(const struct step *s)
+{
+	size_t n = sizeof *s;
+
+	for (int k = 0; k < s->n; k++)
+		n += s->changes[k].ful ? ful_bytes(s->changes[k].ful) : 0;
+	return n;
+}
+
+/* The last step stays, however large it is. */
+static void forget_oldest(struct history *h)
+{
+	int gone = 0;
+
+	while (gone + 1 < h->n && h->bytes > history_most) {
+		h->bytes -= step_bytes(&h->steps[gone]);
+		step_finish(&h->steps[gone++]);
+	}
+	h->n -= gone;
+	memmove(h->steps, h->steps + gone, (size_t)h->n * sizeof *h->steps);
+}
+
 void world_step_end(struct world *w, bool keep)
 {
 	if (--w->depth)
@@ -114,12 +137,9 @@ void world_step_end(struct world *w, bool keep)
 		return;
 	}
 	history_finish(&w->redo);
-	if (w->undo.n == STEPS_MAX) {
-		step_finish(&w->undo.steps[0]);
-		memmove(w->undo.steps, w->undo.steps + 1, (STEPS_MAX - 1) * sizeof *w->undo.steps);
-		w->undo.n--;
-	}
 	w->undo.steps[w->undo.n++] = s;
+	w->undo.bytes += step_bytes(&s);
+	forget_oldest(&w->undo);
 }
 
 static enum status history_go(struct world *w, struct history *from, struct history *to,
@@ -128,11 +148,15 @@ static enum status history_go(struct world *w, struct history *from, struct hist
 	if (!from->n)
 		return report_error(r, ST_PARAMETER, "there is nothing to %s", word);
 	enum status st = grow((void **)&to->steps, to->n, sizeof *to->steps);
+	const size_t bytes = step_bytes(&from->steps[from->n - 1]);
 	if (st == ST_OK)
 		st = step_swap(w, &from->steps[from->n - 1]);
 	if (st != ST_OK)
 		return out_of_memory(r);
-	to->steps[to->n++] = from->steps[--from->n];
+	struct step s = from->steps[--from->n];
+	from->bytes -= bytes;
+	to->bytes += step_bytes(&s);
+	to->steps[to->n++] = s;
 	return ST_OK;
 }
 

@@ -49,15 +49,25 @@ static enum status add_trim(struct model *m, int surface, const struct curve *c)
 	return st == ST_OK ? model_add(m, &e) : st;
 }
 
+static enum status add_trims_of(struct model *m, int surface)
+{
+	enum status st = ST_OK;
+
+	/* the entities move as the model grows */
+	for (int i = 0; i < m->entities[surface].trim.n; i++)
+		for (int c = 0; c < m->entities[surface].trim.loops[i].n && st == ST_OK; c++)
+			st = add_trim(m, surface, &m->entities[surface].trim.loops[i].curves[c]);
+	return st;
+}
+
 enum status world_add_trims(struct model *m)
 {
 	const int n = m->n;
 	enum status st = ST_OK;
 
-	for (int k = 0; k < n; k++)
-		for (int i = 0; i < m->entities[k].trim.n; i++)
-			for (int c = 0; c < m->entities[k].trim.loops[i].n && st == ST_OK; c++)
-				st = add_trim(m, k, &m->entities[k].trim.loops[i].curves[c]);
+	for (int k = 0; k < n && st == ST_OK; k++)
+		if (m->entities[k].kind == ENTITY_SURFACE)
+			st = add_trims_of(m, k);
 	return st;
 }
 

@@ -89,6 +89,30 @@ void ful_destroy(struct Ful *f)
 	free(f);
 }
 
+static size_t surface_numbers(const struct entity *e)
+{
+	size_t n = 4 * (size_t)e->geometry.n[0] * (size_t)e->geometry.n[1];
+
+	for (int i = 0; i < e->trim.n; i++)
+		for (int k = 0; k < e->trim.loops[i].n; k++)
+			n += 5 * (size_t)e->trim.loops[i].curves[k].n;
+	return n;
+}
+
+size_t ful_bytes(const struct Ful *f)
+{
+	const struct entity *e = &f->entity;
+	size_t numbers;
+
+	if (e->kind == ENTITY_SURFACE)
+		numbers = surface_numbers(e);
+	else if (e->kind == ENTITY_POINTS)
+		numbers = (size_t)e->points.n * (size_t)e->points.dimension;
+	else
+		numbers = 5 * ((size_t)e->curve.n + (size_t)e->space.n);
+	return sizeof *f + numbers * sizeof(double);
+}
+
 enum status ful_copy(struct Ful **out, const struct Ful *f)
 {
 	struct Ful *x = malloc(sizeof *x);

@@ -19,6 +19,7 @@ struct step {
 struct history {
 	struct step *steps; /* owned; the last is the next to be taken */
 	int n;
+	size_t bytes; /* about what the steps hold */
 };
 
 struct preset {
@@ -53,7 +54,8 @@ enum status grow(void **array, int n, size_t size);
 /* things.c */
 int thing_index(const struct world *w, int id); /* -1: none */
 struct Ful *thing_get(const struct world *w, int id);
-void ful_destroy(struct Ful *f); /* NULL is fine */
+void ful_destroy(struct Ful *f);       /* NULL is fine */
+size_t ful_bytes(const struct Ful *f); /* about */
 /* All of it twice; *out is fresh. */
 enum status ful_copy(struct Ful **out, const struct Ful *f);
 /* A thing around an entity (moved in, also on failure), not yet in the world. */

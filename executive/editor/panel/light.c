@@ -12,12 +12,12 @@ static void paint_dial(const struct paint *p, double x, double y)
 	static const struct {
 		int degrees;
 		const char *text;
-	} rings[] = { { 45, "45°" }, { 90, "90°" }, { 135, "135°" }, { 180, NULL } };
+	} rings[] = { { 45, NULL }, { 90, "90°" }, { 135, NULL }, { 180, NULL } };
 	paint_rule(p, x - RADIUS, y, 2 * RADIUS);
 	paint_rule_down(p, x, y - RADIUS, 2 * RADIUS);
 	for (int i = 0; i < 4; i++) {
 		const double radius = RADIUS * rings[i].degrees / 180.0;
-		const bool strong = rings[i].degrees == 90 || !rings[i].text; /* the horizon */
+		const bool strong = rings[i].degrees % 90 == 0; /* the horizon, and the rim */
 		paint_circle(p, x, y, radius, strong ? 1.25 : 1, strong ? TOKEN_EDGE : TOKEN_LINE);
 		if (rings[i].text)
 			paint_text(p, LABEL_RING, TOKEN_MUTED, x + radius - 3, y - 8, 1,
