@@ -149,6 +149,10 @@ void desk_jobs_click(struct desk *d, const struct hit *h, unsigned mods)
 	static const enum message_type button[] = { MESSAGE_SUSPEND, MESSAGE_ACTIVATE, MESSAGE_KILL,
 		                                    MESSAGE_RETRY };
 
+	const struct hit at =
+	        *h; /* hits and rows are of the last painting, records come meanwhile */
+	h = &at;
+	desk_fill_jobs(d);
 	if (h->kind == HIT_TAB) {
 		d->job_tab = h->index;
 		d->job_scroll = 0;

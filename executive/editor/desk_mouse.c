@@ -109,6 +109,8 @@ static void click_help(struct desk *d, int index)
 {
 	char code[8];
 
+	if (d->page == PAGE_HELP)
+		desk_fill_help(d);
 	if (index == -2)
 		desk_leave_page(d);
 	else if (index == -1 && desk_shown_menu(d))

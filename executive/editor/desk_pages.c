@@ -130,6 +130,7 @@ static bool link_key(struct desk *d, enum desk_key key, bool back)
 	char code[8];
 	int n = 0;
 
+	desk_fill_help(d); /* what was painted last may have been another page */
 	while (panel_help_link(d->help.text, n, code, sizeof code))
 		n++;
 	if (key == KEY_ENTER && d->help_link >= 0 &&
