@@ -27,19 +27,6 @@ static int root_of(int *root, int point)
 	return point;
 }
 
-static int part_of(const struct mesh *m, int triangle)
-{
-	int lo = 0, hi = m->n_parts - 1;
-	while (lo < hi) {
-		const int mid = lo + (hi - lo) / 2;
-		if (m->parts[mid].first + m->parts[mid].count <= triangle)
-			lo = mid + 1;
-		else
-			hi = mid;
-	}
-	return lo;
-}
-
 static enum status add_open(struct look *x, int low, const struct mesh_use *h)
 {
 	if (x->n_edges == x->room) {
@@ -51,7 +38,7 @@ static enum status add_open(struct look *x, int low, const struct mesh_use *h)
 		x->room = more;
 	}
 	x->edges[x->n_edges++] =
-	        (struct open_edge){ low, h->high, part_of(x->m, h->triangle), h->up };
+	        (struct open_edge){ low, h->high, mesh_part_of(x->m, h->triangle), h->up };
 	const int p = root_of(x->root, low), q = root_of(x->root, h->high);
 	x->root[p > q ? p : q] = p > q ? q : p;
 	return ST_OK;

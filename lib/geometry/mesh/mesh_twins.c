@@ -13,19 +13,6 @@ struct twins {
 	int n, room;
 };
 
-static int part_of(const struct mesh *m, int triangle)
-{
-	int lo = 0, hi = m->n_parts - 1;
-	while (lo < hi) {
-		const int mid = lo + (hi - lo) / 2;
-		if (m->parts[mid].first + m->parts[mid].count <= triangle)
-			lo = mid + 1;
-		else
-			hi = mid;
-	}
-	return lo;
-}
-
 static enum status add_split(struct twins *x, int face, const struct mesh_use *use, int point,
                              const double uv[2])
 {
@@ -97,8 +84,8 @@ enum status mesh_twins(struct mesh_build *b, const bool *stays, struct mesh_spli
 					at[m++] = uses.list[k];
 			/* triangles of one face stand one behind the other */
 			for (int j = 0; m > 2 && j + 1 < m && st == ST_OK; j++) {
-				const int face = part_of(b->out, at[j].triangle);
-				if (face == part_of(b->out, at[j + 1].triangle))
+				const int face = mesh_part_of(b->out, at[j].triangle);
+				if (face == mesh_part_of(b->out, at[j + 1].triangle))
 					st = part_between(&x, face, &at[j], &at[j + 1]);
 			}
 		}

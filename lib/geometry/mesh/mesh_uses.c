@@ -46,3 +46,16 @@ void mesh_uses_finish(struct mesh_uses *x)
 	free(x->first);
 	free(x->list);
 }
+
+int mesh_part_of(const struct mesh *m, int triangle)
+{
+	int lo = 0, hi = m->n_parts - 1;
+	while (lo < hi) {
+		const int mid = lo + (hi - lo) / 2;
+		if (m->parts[mid].first + m->parts[mid].count <= triangle)
+			lo = mid + 1;
+		else
+			hi = mid;
+	}
+	return lo;
+}

@@ -19,4 +19,7 @@ struct mesh_uses {
 enum status mesh_uses_init(struct mesh_uses *x, const struct mesh *m);
 void mesh_uses_finish(struct mesh_uses *x);
 
+/* The part that a triangle belongs to. */
+int mesh_part_of(const struct mesh *m, int triangle);
+
 #endif
