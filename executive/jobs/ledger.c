@@ -7,9 +7,8 @@
 #include <string.h>
 
 #include "json.h"
+#include "ledger_upgrade.h"
 #include "text.h"
-
-enum { LEDGER_VERSION = 2 };
 
 struct book {
 	sqlite3 *db;
@@ -319,28 +318,20 @@ static const char settings[] = "PRAGMA locking_mode=EXCLUSIVE;"
                                "PRAGMA journal_mode=WAL;"
                                "PRAGMA synchronous=NORMAL;"
                                "PRAGMA busy_timeout=2000;";
-/* ended and grp (NULL: none) are what the record says; a job that is over has an ended. What is over is
- * many and looked for seldom: nothing but these indices is read to find what is not. */
-#define LEDGER_INDICES                                                                             \
-	"CREATE INDEX IF NOT EXISTS live ON jobs(id) WHERE ended IS NULL;"                         \
-	"CREATE INDEX IF NOT EXISTS over ON jobs(ended, state) WHERE ended IS NOT NULL;"           \
-	"CREATE INDEX IF NOT EXISTS grouped ON jobs(grp, state, ended) WHERE grp IS NOT NULL;"     \
-	"PRAGMA user_version=2;"                                                                   \
-	"COMMIT;"
 static const char tables[] =
         "BEGIN;"
         "CREATE TABLE IF NOT EXISTS jobs(id INTEGER PRIMARY KEY AUTOINCREMENT,"
         " front INTEGER NOT NULL, killed INTEGER NOT NULL,"
-        " state TEXT NOT NULL, record TEXT NOT NULL, ended REAL, grp TEXT);" LEDGER_INDICES;
-/* Version 1 was without them. */
-static const char tables_from_1[] =
-        "BEGIN;"
-        "ALTER TABLE jobs ADD COLUMN ended REAL;"
-        "ALTER TABLE jobs ADD COLUMN grp TEXT;"
-        "UPDATE jobs SET grp = json_extract(record, '$.group') WHERE json_valid(record);"
-        "UPDATE jobs SET ended = CASE WHEN json_valid(record) THEN"
-        " coalesce(json_extract(record, '$.ended'), 0) ELSE 0 END"
-        " WHERE state IN ('done', 'failed', 'killed', 'lost');" LEDGER_INDICES;
+        " state TEXT NOT NULL, record TEXT NOT NULL, ended REAL, grp TEXT);" LEDGER_INDICES
+        "COMMIT;";
+
+static bool book_make(struct book *b, int version, ledger_busy *busy, void *busy_data)
+{
+	if (version >= LEDGER_VERSION)
+		return true;
+	return version ? ledger_upgrade(b->db, busy, busy_data)
+	               : sqlite3_exec(b->db, tables, NULL, NULL, NULL) == SQLITE_OK;
+}
 
 static bool book_prepare(struct book *b)
 {
@@ -408,6 +399,12 @@ static void book_close(struct book *b)
 
 enum status ledger_open(struct ledger *out, const char *path, const struct report *r)
 {
+	return ledger_open_telling(out, path, NULL, NULL, r);
+}
+
+enum status ledger_open_telling(struct ledger *out, const char *path, ledger_busy *busy,
+                                void *busy_data, const struct report *r)
+{
 	int version = 0;
 	enum status st = ST_OK;
 	memset(out, 0, sizeof *out);
@@ -421,8 +418,7 @@ enum status ledger_open(struct ledger *out, const char *path, const struct repor
 		st = book_error(b, "open", r);
 	if (st == ST_OK)
 		st = book_version(b, &version, r);
-	if (st == ST_OK && version < LEDGER_VERSION &&
-	    sqlite3_exec(b->db, version ? tables_from_1 : tables, NULL, NULL, NULL) != SQLITE_OK)
+	if (st == ST_OK && !book_make(b, version, busy, busy_data))
 		st = book_error(b, "open", r);
 	if (st == ST_OK && !book_prepare(b))
 		st = book_error(b, "open", r);

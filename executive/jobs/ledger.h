@@ -49,6 +49,11 @@ struct ledger {
 /* SQLite in WAL mode. A path that does not begin with / counts from the working folder, which must stay;
  * others are of LEDGER_PATH_MAX bytes at most. Errors: ST_RESOURCE, ST_INPUT (written by a later batten). */
 enum status ledger_open(struct ledger *out, const char *path, const struct report *r);
+/* Likewise; busy (NULL: nobody listens) is called now and then while a long ledger of an earlier batten is
+ * taken over. */
+typedef void ledger_busy(void *data);
+enum status ledger_open_telling(struct ledger *out, const char *path, ledger_busy *busy,
+                                void *busy_data, const struct report *r);
 void ledger_close(struct ledger *l); /* zeroed is fine */
 
 #endif

@@ -92,6 +92,12 @@ static void on_loading(void *data, int n)
 		lock_touch(s->lock);
 }
 
+static void on_upgrading(void *data)
+{
+	const struct server *s = data;
+	lock_touch(s->lock);
+}
+
 static void hooks_told(struct server *s, const struct Stats *job)
 {
 	bool all_done;
@@ -343,7 +349,8 @@ static enum status server_open(struct server *s, const struct settings *settings
 	const char *hidden =
 	        strlen(s->project->hidden) < LEDGER_PATH_MAX ? s->project->hidden : ".batten";
 	char *path = path_join(hidden, "jobs.db");
-	enum status st = path ? ledger_open(&s->ledger, path, r) : ST_RESOURCE;
+	enum status st =
+	        path ? ledger_open_telling(&s->ledger, path, on_upgrading, s, r) : ST_RESOURCE;
 	free(path);
 	if (st == ST_OK)
 		st = queue_create(&s->queue, &ports, &limits);
