@@ -131,7 +131,10 @@ void job_gone(struct job *job)
 {
 	bool clean = !job->exit.signal && !job->exit.status;
 	bool complete = job->greeted && job->finished && job->stats.n_outputs && clean;
-	bool cancelled = job->error == ST_CANCELLED;
+	/* one that is stopped before it was told what to do can only say so by its status */
+	bool cancelled =
+	        job->error == ST_CANCELLED || (!job->error && job->greeted && !job->exit.signal &&
+	                                       job->exit.status == status_exit(ST_CANCELLED));
 	enum job_cause cause = job->cause;
 
 	leave_process(job);

@@ -375,6 +375,23 @@ static void a_job_is_among_the_changed_once(void **state)
 
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
+static void one_that_was_stopped_from_outside_is_killed(void **state)
+{
+	struct fake *f = *state;
+	for (int said = 0; said < 2; said++) {
+		int64_t id = fake_submit(f, 0, 1, 0);
+		fake_hello(f, id);
+		if (said)
+			fake_packet(
+			        f, id, MESSAGE_ERROR,
+			        json_pack("{s:s, s:s}", "class", "cancelled", "text", "cancelled"));
+		fake_exit(f, id, 130, 0);
+		fake_eof(f, id);
+		assert_int_equal(fake_state(f, id), JOB_KILLED);
+		assert_non_null(strstr(fake_reason(f, id), "stopped from outside"));
+	}
+}
+
 /* fake_init lets one or two stay in memory. */
 static void what_is_over_leaves_memory_but_not_what_is_waited_for(void **state)
 {
@@ -432,6 +449,7 @@ int main(void)
 		T(forgets_only_what_has_ended),
 		T(a_batch_is_queued_whole_or_not_at_all),
 		T(a_job_is_among_the_changed_once),
+		T(one_that_was_stopped_from_outside_is_killed),
 		T(what_is_over_leaves_memory_but_not_what_is_waited_for),
 	};
 	return cmocka_run_group_tests_name("queue", tests, NULL, NULL);
