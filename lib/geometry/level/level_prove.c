@@ -31,6 +31,9 @@ enum { NODES = PROOF_NODES, GROUPS = PROOF_GROUPS };
 /* A piece that uses so many tolerances in some nodes is not looked at in the others. */
 #define USED_MAX 1.0
 
+/* Where rounding is more than this part of the bounds in a box, those of the patch are looked at. */
+#define ROUNDING_SHARE 0.5
+
 /* A rest below this part of what it is added to is small enough. */
 #define REST_SHARE 0.01
 
@@ -59,9 +62,11 @@ static void range_add(struct range *r, double x)
 	r->hi = larger(r->hi, x);
 }
 
-/* Second derivatives of f in the cell, uu, uv, vv, by its own parameters. */
-static void second_bounds(struct prover *p, const double *c, int m, int n, double error)
+/* Second derivatives of f in a box of these widths, uu, uv, vv; the part of the spread that is rounding. */
+static void second_bounds(const double *c, int m, int n, double error, const double width[2],
+                          double second[3], double spread[3], double rounding[3])
 {
+	const double area[3] = { width[0] * width[0], width[0] * width[1], width[1] * width[1] };
 	const size_t row = (size_t)n + 1;
 	const double number[3] = { m * (m - 1.0), (double)m * n, n * (n - 1.0) };
 	struct range r[3];
@@ -78,9 +83,30 @@ static void second_bounds(struct prover *p, const double *c, int m, int n, doubl
 		for (const double *x = c + row * i; x < c + row * (i + 1) - 2; x++)
 			range_add(&r[2], x[0] - 2 * x[1] + x[2]);
 	for (int g = 0; g < 3; g++) {
-		p->second[g] = 0.5 * (r[g].lo + r[g].hi) * number[g];
-		p->spread[g] = (0.5 * (r[g].hi - r[g].lo) + 4 * error) * number[g];
+		rounding[g] = 4 * error * number[g] / area[g];
+		second[g] = 0.5 * (r[g].lo + r[g].hi) * number[g] / area[g];
+		spread[g] = 0.5 * (r[g].hi - r[g].lo) * number[g] / area[g] + rounding[g];
 	}
+}
+
+/* In a small box rounding may be most of the bounds: those of the whole patch hold there, too. */
+static void second_improve(struct prover *p, const double rounding[3])
+{
+	const struct tracer *t = p->t;
+	const int *degree = t->level->degree;
+	double second[3], spread[3], others[3];
+	bool coarse = false;
+	for (int g = 0; g < 3; g++)
+		coarse |= rounding[g] > ROUNDING_SHARE * p->spread[g];
+	if (!coarse)
+		return;
+	second_bounds(t->field, degree[0], degree[1], t->bound.error, (double[2]){ 1, 1 }, second,
+	              spread, others);
+	for (int g = 0; g < 3; g++)
+		if (spread[g] < p->spread[g]) {
+			p->second[g] = second[g];
+			p->spread[g] = spread[g];
+		}
 }
 
 /* Largest derivative of forms y (three components and a weight), i times in u and j times in v, each
@@ -154,13 +180,11 @@ void level_prover_init(struct prover *p, const struct tracer *t, const struct ce
 	p->box = *box;
 	p->shape = s->shapes + t->patch;
 	p->rational = s->net.rational;
-	second_bounds(p, c, degree[0], degree[1], error);
-	double hu = box->hi[0] - box->lo[0], hv = box->hi[1] - box->lo[1];
-	const double area[3] = { hu * hu, hu * hv, hv * hv };
-	for (int g = 0; g < 3; g++) {
-		p->second[g] /= area[g];
-		p->spread[g] /= area[g];
-	}
+	const double hu = box->hi[0] - box->lo[0], hv = box->hi[1] - box->lo[1];
+	double rounding[3];
+	second_bounds(c, degree[0], degree[1], error, (double[2]){ hu, hv }, p->second, p->spread,
+	              rounding);
+	second_improve(p, rounding);
 	for (int d = 0; d < 2; d++) {
 		const double *b = s->net.breaks[d] + t->place[d];
 		p->width[d] = b[1] - b[0];
