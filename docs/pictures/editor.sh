@@ -58,14 +58,16 @@ key Return
 still
 xdotool mousemove --window "$window" 520 420
 shot editor-curvature.png
-"$build/executive/batten" submit raytrace hull.igs --size 3000x2000 --samples 4 >/dev/null
-"$build/executive/batten" submit shading hull.igs --size 1200x800 >/dev/null
-held=$("$build/executive/batten" submit isophotes hull.igs#2 --after 2)
+trace=$("$build/executive/batten" submit raytrace hull.igs --size 6000x4000 --samples 4)
+shade=$("$build/executive/batten" submit shading hull.igs --size 4000x2600 --samples 4)
+held=$("$build/executive/batten" submit isophotes hull.igs#2 --after "$trace")
 "$build/executive/batten" hold $held >/dev/null
 until "$build/executive/batten" jobs --json | grep -q '"state": *"running"'; do sleep 0.1; done
-"$build/executive/batten" suspend 2 >/dev/null || true
-key j
-shot editor-jobs.png
+"$build/executive/batten" suspend $shade >/dev/null || true
+xdotool key --window "$window" j
+sleep 2 # bars move all the time
+import -window root -strip "png:$out/editor-jobs.png"
+"$build/executive/batten" kill $trace >/dev/null
 key Escape
 key slash
 xdotool type --window "$window" "iso"

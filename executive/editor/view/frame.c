@@ -6,7 +6,7 @@
 #include "hash.h"
 #include "view_private.h"
 
-enum { SAMPLES = 4 };
+enum { SAMPLES = 4, SAMPLED_MOST = 1 << 25 /* px, of 32 bytes with their samples */ };
 
 bool file_stamp(const char *path, int64_t stamp[3])
 {
@@ -342,7 +342,12 @@ static enum status draw_at_rest(struct drawing *d)
 		return ST_OK;
 	}
 	still->of = 0;
-	enum status st = target_init(&v->fine, width, height, SAMPLES, d->report);
+	/* what has no room for that is drawn with one sample */
+	enum status st = ST_RESOURCE;
+	if ((double)width * height <= SAMPLED_MOST)
+		st = target_init(&v->fine, width, height, SAMPLES, &report_none);
+	if (st != ST_OK)
+		st = target_init(&v->fine, width, height, 0, d->report);
 	if (st == ST_OK)
 		st = target_init(&still->target, width, height, 0, d->report);
 	if (st != ST_OK)

@@ -227,6 +227,24 @@ static enum status check(const struct world *w, const char *path, const struct r
 	return ST_OK;
 }
 
+/* Sentences name the file as the caller does, not as it is called until it is whole. */
+struct naming {
+	const struct report *to;
+	const char *temporary, *path;
+};
+
+static void say_named(void *data, enum report_level level, enum status st, const char *text)
+{
+	const struct naming *n = data;
+	const char *at = strstr(text, n->temporary);
+	char *named = at ? text_print("%.*s%s%s", (int)(at - text), text, n->path,
+	                              at + strlen(n->temporary))
+	                 : NULL;
+	if (n->to && n->to->say)
+		n->to->say(n->to->data, level, st, named ? named : text);
+	free(named);
+}
+
 enum status render_write(const struct world *w, const char *path, const struct render_options *o,
                          const struct report *r)
 {
@@ -252,9 +270,11 @@ enum status render_write(const struct world *w, const char *path, const struct r
 	        file.temp ? strdup(file.temp) : text_print("/proc/self/fd/%d", fileno(file.stream));
 	if (!name)
 		st = report_error(r, ST_RESOURCE, "cannot write '%s': memory ran out", path);
-	else
-		st = f->lines ? render_lines(w, name, f->format, &state.camera, &all, r)
-		              : render_png(w, name, &all, &state, r);
+	struct naming naming = { r, name, path };
+	const struct report named = { say_named, &naming };
+	if (name)
+		st = f->lines ? render_lines(w, name, f->format, &state.camera, &all, &named)
+		              : render_png(w, name, &all, &state, &named);
 	free(name);
 	if (st == ST_OK)
 		return whole_file_commit(&file, r);

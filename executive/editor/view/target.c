@@ -37,7 +37,7 @@ enum status target_init(struct target *t, int width, int height, int samples,
 		target_finish(t);
 		return report_error(
 		        r, ST_RESOURCE,
-		        "cannot draw %d x %d pixels: no graphics memory; make the window "
+		        "cannot draw %d x %d pixels: no graphics memory; make the picture "
 		        "smaller",
 		        width, height);
 	}
