@@ -33,7 +33,7 @@ static bool load(struct iges_bytes *b, int i, size_t at)
 	return true;
 }
 
-const char *iges_bytes_at(struct iges_bytes *b, size_t at, size_t want, size_t *got)
+const char *iges_bytes_find(struct iges_bytes *b, size_t at, size_t want, size_t *got)
 {
 	*got = 0;
 	if (at >= b->n)
@@ -57,11 +57,12 @@ const char *iges_bytes_at(struct iges_bytes *b, size_t at, size_t want, size_t *
 		found = oldest;
 		if (!load(b, found, start)) {
 			b->failed = true;
-			b->block[found].used = 0;
+			b->block[found].used = b->block[found].n = 0;
 			return "";
 		}
 	}
 	b->block[found].used = ++b->tick;
+	b->last = found;
 	size_t end = b->block[found].at + b->block[found].n;
 	*got = end <= at ? 0 : end - at < want ? end - at : want;
 	return b->block[found].data + (at - b->block[found].at);

@@ -56,7 +56,8 @@ static bool next_line(struct iges *g, size_t *at, struct line *l)
 	if (!got)
 		return false;
 	size_t n = line_length(g, s, got, *at, &whole);
-	s = iges_bytes_at(&g->bytes, *at, n, &got);
+	if (whole > got) /* it was gone through to its end: other blocks may have come */
+		s = iges_bytes_at(&g->bytes, *at, n, &got);
 	l->at = *at;
 	*at += whole;
 	n = got < n ? got : n;
@@ -151,7 +152,7 @@ static bool is_in_run(const struct iges_lines *l, int run, int i)
 
 size_t iges_lines_at(struct iges_lines *l, int i)
 {
-	if (!is_in_run(l, l->last, i))
+	if (l->n_runs > 1 && !is_in_run(l, l->last, i))
 		l->last = is_in_run(l, l->last + 1, i) ? l->last + 1 : find_run(l, i);
 	const struct line_run *r = &l->runs[l->last];
 	return r->at + (size_t)r->stride * (size_t)(i - r->first);

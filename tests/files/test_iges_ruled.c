@@ -12,12 +12,18 @@
 
 #define STRAIGHT "110,0.,0.,0.,2.,0.,0.;"
 #define ARC90    "100,1.,0.,0.,2.,0.,0.,2.;" /* z = 1, radius 2 */
+#define WIDER90  "100,3.,0.,0.,4.,0.,0.,4.;" /* z = 3, radius 4 */
 
 /* 118: points of v = 0 and v = 1 at u, and what is said. Form 0 by relative arc length; form 1 by
  * parameters, which of an arc are its angle. */
 static void ruled_surfaces_run_as_the_standard_has_it(void **state)
 {
 	static const double turned = M_PI / 2 * 0.7, fifteen = M_PI / 12, half = M_PI / 4;
+	/* 0.3 and 0.7 of the line; 0.3 of the arc, which goes down from 90 degrees, by its angle */
+	const struct vec3 line3 = { 0.6, 0, 0 }, line7 = { 1.4, 0, 0 },
+	                  arc3 = { 2 * sin(turned), 2 * cos(turned), 1 };
+	const struct vec3 inner = { 2 * sin(half), 2 * cos(half), 1 },
+	                  outer = { 4 * sin(half), 4 * cos(half), 3 };
 	const struct {
 		int form, turn;
 		const char *a, *b;
@@ -28,52 +34,12 @@ static void ruled_surfaces_run_as_the_standard_has_it(void **state)
 		{ 0, 0, STRAIGHT, HASTY, 0.5, { 1, 0, 0 }, { 1, 1, 0 }, false, true },
 		{ 0, 1, STRAIGHT, HASTY, 0.25, { 0.5, 0, 0 }, { 1.5, 1, 0 }, false, true },
 		{ 1, 0, STRAIGHT, HASTY, 0.5, { 1, 0, 0 }, { 0.5, 1, 0 }, false, false },
-		{ 0,
-		  0,
-		  STRAIGHT,
-		  ARC90,
-		  0.3,
-		  { 0.6, 0, 0 },
-		  { 2 * sin(turned), 2 * cos(turned), 1 },
-		  false,
-		  true },
-		{ 1,
-		  0,
-		  STRAIGHT,
-		  ARC90,
-		  0.3,
-		  { 0.6, 0, 0 },
-		  { 2 * sin(turned), 2 * cos(turned), 1 },
-		  false,
-		  true },
-		{ 1,
-		  1,
-		  STRAIGHT,
-		  ARC90,
-		  0.7,
-		  { 1.4, 0, 0 },
-		  { 2 * sin(turned), 2 * cos(turned), 1 },
-		  false,
-		  true },
+		{ 0, 0, STRAIGHT, ARC90, 0.3, line3, arc3, false, true },
+		{ 1, 0, STRAIGHT, ARC90, 0.3, line3, arc3, false, true },
+		{ 1, 1, STRAIGHT, ARC90, 0.7, line7, arc3, false, true },
 		/* arcs of one angle: exact, and u their NURBS parameter */
-		{ 0,
-		  0,
-		  ARC90,
-		  "100,3.,0.,0.,4.,0.,0.,4.;",
-		  0.5,
-		  { 2 * sin(half), 2 * cos(half), 1 },
-		  { 4 * sin(half), 4 * cos(half), 3 },
-		  true,
-		  false },
-		{ 1,
-		  0,
-		  ARC90,
-		  "100,3.,0.,0.,4.,0.,0.,4.;",
-		  0.5,
-		  { 2 * sin(half), 2 * cos(half), 1 },
-		  { 4 * sin(half), 4 * cos(half), 3 },
-		  true,
-		  false },
+		{ 0, 0, ARC90, WIDER90, 0.5, inner, outer, true, false },
+		{ 1, 0, ARC90, WIDER90, 0.5, inner, outer, true, false },
 		/* arcs from 90 by 270, and from 30 back by 30 degrees */
 		{ 1,
 		  1,
@@ -82,6 +48,16 @@ static void ruled_surfaces_run_as_the_standard_has_it(void **state)
 		  0.5,
 		  { cos(5 * half), sin(5 * half), 0 },
 		  { cos(fifteen), sin(fifteen), 0 },
+		  false,
+		  true },
+		/* a branch of a hyperbola by its angle, 60 degrees of it */
+		{ 1,
+		  0,
+		  "110,0.,0.,0.,1.,0.,0.;",
+		  "104,1.,0.,-1.,0.,0.,-1.,0.,1.,0.,2.,1.7320508075688772;",
+		  0.25,
+		  { 0.25, 0, 0 },
+		  { 1 / cos(fifteen), tan(fifteen), 0 },
 		  false,
 		  true },
 		/* two straight splines alike in their haste: exact in form 0 */
