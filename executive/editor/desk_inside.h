@@ -159,8 +159,9 @@ struct desk {
 	struct vec3 point_from, point_to;
 	double weight_from, weight_to;
 
-	struct errand *errand; /* owned; it has the world */
-	char **pending;        /* owned; files still to be opened */
+	struct errand *errand;   /* owned; it has the world */
+	const char *undo_before; /* the last edit when it began: only compared, never looked at */
+	char **pending;          /* owned; files still to be opened */
 	int n_pending, pending_at;
 	bool leaving;
 

@@ -142,6 +142,7 @@ void desk_run(struct desk *d, const struct routine *t, const struct arguments *g
 		return;
 	}
 	desk_world_changed(d);
+	d->undo_before = world_undo_name(d->world);
 	d->errand = e;
 	if (is_long(t) && d->ports.start && d->ports.start(d->ports.data, e)) {
 		desk_dirty(d, desk_bit(PART_FOOT) | desk_bit(PART_MOUSE));
@@ -192,6 +193,23 @@ static void say_lines(struct desk *d, enum report_level level, const char *lines
 	}
 }
 
+/* An edit that can be taken back, said so where its routine said nothing. */
+static void tell_edit(struct desk *d, const struct routine *t, bool said)
+{
+	const char *what = world_undo_name(d->world);
+
+	if (!what || what == d->undo_before || !strcmp(t->code, "V182") || !strcmp(t->code, "V183"))
+		return;
+	if (!said) {
+		const bool small = *what >= 'a' && *what <= 'z';
+		desk_say(d, REPORT_INFO, "%c%s: done.", small ? *what - 'a' + 'A' : *what,
+		         what + 1);
+		d->messages[d->n_messages - 1].done = true;
+	}
+	snprintf(d->messages[d->n_messages - 1].hint, sizeof d->messages[0].hint, "Z undoes: %.36s",
+	         what);
+}
+
 void desk_errand_over(struct desk *d)
 {
 	struct errand *e = d->errand;
@@ -205,9 +223,7 @@ void desk_errand_over(struct desk *d)
 	if (st == ST_OK) {
 		say_lines(d, REPORT_WARNING, errand_warning(e));
 		say_lines(d, REPORT_INFO, errand_said(e));
-		if (t->kind == ROUTINE_EDIT && world_undo_name(d->world) && d->n_messages)
-			snprintf(d->messages[d->n_messages - 1].hint, sizeof d->messages[0].hint,
-			         "Z undoes: %.36s", world_undo_name(d->world));
+		tell_edit(d, t, *errand_said(e));
 	} else if (st == ST_CANCELLED) {
 		desk_say(d, REPORT_INFO, "%s was stopped.", t->code);
 	} else {

@@ -140,13 +140,31 @@ struct placed {
 	const struct report *report;
 	const char *path;
 	long line;
+	const struct script_line *now; /* being run; NULL: being taken apart */
 };
+
+/* The column of the argument that a sentence is about; 0: of none. */
+static int column_of(const struct placed *p, const char *text)
+{
+	for (int k = 0; p->now && k < p->now->given.n; k++) {
+		const char *name = p->now->given.name[k];
+		const size_t n = strlen(name);
+		if (!strncmp(text, name, n) && !strncmp(text + n, " is ", 4))
+			return (int)(name - p->now->text) + 1;
+	}
+	return 0;
+}
 
 static void say_placed(void *data, enum report_level level, enum status st, const char *text)
 {
 	const struct placed *p = data;
 
-	if (level == REPORT_ERROR)
+	const int column = column_of(p, text);
+
+	if (level == REPORT_ERROR && column)
+		report_error(p->report, st, "%s line %ld: %s (column %d)", p->path, p->line, text,
+		             column);
+	else if (level == REPORT_ERROR)
 		report_error(p->report, st, "%s line %ld: %s", p->path, p->line, text);
 	else if (level == REPORT_WARNING)
 		report_warning(p->report, "%s line %ld: %s", p->path, p->line, text);
@@ -154,13 +172,16 @@ static void say_placed(void *data, enum report_level level, enum status st, cons
 		report_info(p->report, "%s line %ld: %s", p->path, p->line, text);
 }
 
-static enum status run_line(struct act *a, const char *text)
+static enum status run_line(struct act *a, const char *text, struct placed *place)
 {
 	struct script_line line;
 	enum status st = script_line_parse(&line, text, &a->report);
 
-	if (st == ST_OK && line.routine)
+	if (st == ST_OK && line.routine) {
+		place->now = &line;
 		st = routine_call(line.routine, a, &line.given);
+		place->now = NULL;
+	}
 	script_line_finish(&line);
 	return st;
 }
@@ -176,7 +197,7 @@ static enum status run_stream(struct act *a, FILE *in, struct placed *place, boo
 	while (!a->quit && (n = getline(&line, &room, in)) >= 0) {
 		place->line++;
 		enum status st = strlen(line) == (size_t)n
-		                         ? run_line(a, line)
+		                         ? run_line(a, line, place)
 		                         : report_error(&a->report, ST_PARAMETER,
 		                                        "a zero byte; a script is text");
 		if (st == ST_OK)
@@ -193,7 +214,8 @@ static enum status run_stream(struct act *a, FILE *in, struct placed *place, boo
 enum status script_run(struct act *a, const char *path, bool keep_going, int *failed)
 {
 	const struct report report = a->report;
-	struct placed place = { &report, strcmp(path, "-") ? path : "standard input", 0 };
+	struct placed place = { .report = &report,
+		                .path = strcmp(path, "-") ? path : "standard input" };
 	char *bytes = NULL;
 	size_t n = 0;
 	enum status st = ST_OK;

@@ -107,7 +107,7 @@ def test_failing_lines(project):
     with open(project.path("a.script"), "w") as f:
         f.write("\n".join(lines))
     stopped = project.run("batten", "script", "a.script", status=2)
-    assert "a.script line 2: grid is 'abc'" in stopped.stderr, stopped.stderr
+    assert "a.script line 2: grid is 'abc'" in stopped.stderr and "(column 5)" in stopped.stderr, stopped.stderr
     assert "line 4" not in stopped.stderr
     on = project.run("batten", "script", "a.script", "--keep-going", status=2)
     assert "line 2" in on.stderr and "a.script line 4: V79 has no argument nothing" in on.stderr, on.stderr
