@@ -31,7 +31,7 @@ static const char *heading(struct desk *d, struct scraps *s, const char **note)
 {
 	const struct Ful *f = world_current(d->world, false);
 	int lines = 0, images = 0, maps = 0;
-	const struct overlay *map = shown_map(d), *image = NULL;
+	const struct overlay *map = shown_map(d), *image = NULL, *line = NULL;
 
 	*note = "";
 	for (int i = 0; i < world_overlays(d->world); i++) {
@@ -41,6 +41,8 @@ static const char *heading(struct desk *d, struct scraps *s, const char **note)
 		maps += o->kind == OVERLAY_MAP;
 		if (o->kind == OVERLAY_IMAGE)
 			image = o;
+		if (o->kind == OVERLAY_LINES)
+			line = o;
 	}
 	const struct overlay *of = map ? map : image;
 	if (map && maps > 1)
@@ -52,8 +54,12 @@ static const char *heading(struct desk *d, struct scraps *s, const char **note)
 		return in_capital(s, quantity_table[map->quantity].title);
 	if (images)
 		return "Image";
-	if (lines)
-		*note = scraps_print(s, "with %d result%s of lines", lines, lines == 1 ? "" : "s");
+	if (lines == 1 && line->job)
+		*note = scraps_print(s, "lines arriving from job %lld", (long long)line->job);
+	else if (lines == 1 && line->file)
+		*note = scraps_print(s, "with the lines of %s", path_file_name(line->file));
+	else if (lines)
+		*note = scraps_print(s, "with the lines of %d results", lines);
 	if (!f)
 		f = world_current(d->world, true);
 	return f ? f->name : "";
