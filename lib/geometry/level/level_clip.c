@@ -25,23 +25,28 @@ struct clipper {
 	const struct level_branch *branch;
 	struct level_span *spans; /* owned */
 	size_t n;
-	double tolerance;
+	double tolerance, size;
 	struct list meets;     /* of struct level_meet */
 	struct list stretches; /* of struct stretch */
 };
 
+/* Eight times the branch's error. A bound far above the tolerance says nothing of it. */
+static double near_of(const struct clipper *c)
+{
+	return larger(smaller(c->branch->max_error, c->tolerance) / along_near, c->tolerance);
+}
+
 /* Lengths of the parameters where the span is, and where that is a pole at least a little. */
 static struct level_metric metric_at(const struct clipper *c, const struct level_span *s)
 {
-	struct level_metric m = { .near = larger(c->branch->max_error / along_near, c->tolerance) };
+	struct level_metric m = { .near = near_of(c) };
 	double uv[2], duv[2];
 	struct vec3 p, d[2];
-	const double size = surface_size(c->surface);
 	level_span_uv(s, 0.5 * (s->t[0] + s->t[1]), uv, duv);
 	surface_tangents(c->surface, uv[0], uv[1], &p, &d[0], &d[1]);
 	for (int k = 0; k < 2; k++) {
 		const double range = c->surface->domain[k][1] - c->surface->domain[k][0];
-		m.scale[k] = larger(vec3_length(d[k]), 1e-3 * size / range);
+		m.scale[k] = larger(vec3_length(d[k]), 1e-3 * c->size / range);
 	}
 	return m;
 }
@@ -364,7 +369,8 @@ enum status level_clip(const struct level_faces *f, int i, double tolerance, str
 {
 	struct clipper c = { .test = f->tests[i],
 		             .surface = f->faces[i].surface,
-		             .tolerance = tolerance };
+		             .tolerance = tolerance,
+		             .size = surface_size(f->faces[i].surface) };
 	struct list kept = { 0 };
 	enum status st = ST_OK;
 	if (!c.test)
