@@ -15,7 +15,7 @@ struct border_edge {
 	double length; /* in space, about */
 };
 
-/* A part of an edge that is straight within the gap. */
+/* A part of an edge that is nearly straight. */
 struct border_segment {
 	int edge;
 	double t[2];
@@ -31,7 +31,7 @@ struct border_node {
 struct level_faces {
 	struct level_face *faces; /* owned array */
 	int n;
-	double gap;
+	double gap, flat;         /* flat: how straight the parts of edges are */
 	struct trim_test **tests; /* owned, one a face; NULL: not trimmed */
 	struct list edges, segments, nodes;
 };

@@ -7,6 +7,9 @@
 /* Sides that are one point, or meet, within this part of the size are no border. */
 static const double closed_share = 1e-9;
 
+/* Edges are cut into parts as straight as this part of the size, or a quarter of the gap. */
+static const double flat_share = 1e-5;
+
 enum { DEPTH_MAX = 12, LEAF = 4, STEPS_MAX = 4096 };
 
 void border_edge_uv(const struct level_faces *f, int edge, double t, double uv[2], double duv[2])
@@ -56,14 +59,14 @@ static double off_chord(struct vec3 a, struct vec3 b, struct vec3 p)
 	return vec3_length(vec3_along(x, -at, d));
 }
 
-/* Halve until the quarters lie near the chord; the box is as much larger. */
+/* Halve until the quarters lie near the chord; the box is twice as much larger. */
 static void segments_add(struct level_faces *f, int edge, double a, double b, int depth)
 {
 	const struct vec3 p = edge_at(f, edge, a), q = edge_at(f, edge, b);
 	double off = 0;
 	for (int i = 1; i < 4; i++)
 		off = larger(off, off_chord(p, q, edge_at(f, edge, a + 0.25 * i * (b - a))));
-	if (off > 0.25 * f->gap && depth < DEPTH_MAX) {
+	if (off > f->flat && depth < DEPTH_MAX) {
 		const double middle = 0.5 * (a + b);
 		segments_add(f, edge, a, middle, depth + 1);
 		segments_add(f, edge, middle, b, depth + 1);
@@ -244,6 +247,8 @@ enum status level_faces_create(struct level_faces **out, const struct level_face
 		f->faces[i] = faces[i];
 		if (faces[i].trim && faces[i].trim->n > 0)
 			st = trim_test_create(&f->tests[i], faces[i].trim, faces[i].surface);
+		/* feet are found on the edge itself: parts need not be flatter however small the gap */
+		f->flat = larger(0.25 * gap, flat_share * surface_size(faces[i].surface));
 		if (st == ST_OK)
 			face_edges(f, i);
 	}

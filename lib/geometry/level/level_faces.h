@@ -19,7 +19,8 @@ struct level_face {
 
 struct level_faces; /* opaque: faces, their borders in space, an index of them; read-only */
 
-/* gap: in space, file units, above 0. Errors: ST_RESOURCE. */
+/* gap: in space, file units; 0: borders are shared where they are the same to rounding. Errors:
+ * ST_RESOURCE. */
 enum status level_faces_create(struct level_faces **out, const struct level_face *faces, int n,
                                double gap);
 void level_faces_destroy(struct level_faces *f); /* NULL is fine */
