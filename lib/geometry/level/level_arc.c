@@ -233,7 +233,12 @@ static struct proof strip_proof(const struct follower *w, const struct station *
 	double side[2];
 	level_strip_bound(&w->strip, a->uv, b->uv, side);
 	struct proof p = box_proof(w, a, b, size, length, side[0], side[1]);
-	if (w->prover.shape->first[other] * (side[1] - side[0]) > BAND_LENGTHS * size) {
+	const double *first = w->prover.shape->first;
+	double extent[2];
+	for (int d = 0; d < 2; d++)
+		extent[d] = fabs(a->uv[d] - b->uv[d]);
+	if (first[other] * (side[1] - side[0] - extent[other]) >
+	    BAND_LENGTHS * (first[0] * extent[0] + first[1] * extent[1])) {
 		p.rounding[0] = p.space;
 		p.rounding[1] = p.uv;
 	}
@@ -351,7 +356,7 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 			return;
 		used = proof.used;
 	}
-	bool tiny = size < 1e-3 * tolerance;
+	bool tiny = size < 1e-4 * tolerance;
 	if (tiny && !good(w, &best))
 		tiny_prove(w, a, b, size, &best);
 	bool enough = tiny || depth >= FIT_DEPTH_MAX ||
