@@ -163,7 +163,7 @@ struct desk {
 	const char *undo_before; /* the last edit when it began: only compared, never looked at */
 	char **pending;          /* owned; files still to be opened */
 	int n_pending, pending_at;
-	bool leaving;
+	const char *leaving_jobs; /* what becomes of them: as V133 says it */
 
 	/* models as filled last */
 	struct menu_model menu;
@@ -210,13 +210,15 @@ const struct Menu_Entry *desk_leaf(const struct desk *d, const char *code); /* N
 bool desk_leaf_own(struct desk *d, const struct Menu_Entry *e); /* true: done */
 bool desk_leaf_is_own(const char *code); /* the desk does it, whatever its routine says */
 enum tool desk_leaf_tool(const char *code);
-void desk_quit(struct desk *d);
 void desk_run(struct desk *d, const struct routine *t, const struct arguments *given);
 void desk_run_code(struct desk *d, const char *code, const char *name, const char *value);
 /* What was done without the routine, as if by it; pairs of name and value, ended by NULL. */
 void desk_journal(struct desk *d, const char *code, const char *const *pairs);
 void desk_open_next(struct desk *d);
 const char *desk_near_path(const struct desk *d, const char *path); /* borrowed from path */
+
+/* desk_leave.c */
+void desk_quit(struct desk *d);
 
 /* desk_ask.c */
 void desk_ask(struct desk *d, const struct routine *t, const struct Menu_Entry *e);

@@ -3,10 +3,13 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
 #include "desk_stand.h"
+#include "file.h"
+#include "path.h"
 
 /* ------------------------------------------------------------ menus */
 
@@ -242,6 +245,32 @@ static void quitting_asks_only_where_something_is_lost(void **state)
 	assert_true(s->closed);
 }
 
+/* Unsaved work that the session cannot keep is not lost unasked. */
+static void a_session_that_cannot_be_kept_is_asked_about(void **state)
+{
+	struct stand *s = *state;
+	char *path = path_join(s->project.hidden, "session");
+
+	stand_add_plate(s, "plate");
+	assert_int_equal(file_write(path, "in the way", 10, NULL), ST_OK);
+	for (int lose = 0; lose < 2; lose++) {
+		desk_close(s->desk);
+		stand_type(s, "l");
+		assert_false(s->closed);
+		assert_non_null(strstr(desk_list_model(s->desk)->title, "lose"));
+		assert_non_null(strstr(desk_list_model(s->desk)->lines[0], "session"));
+		stand_type(s, lose ? "l" : "n");
+		assert_int_equal(s->closed, lose);
+	}
+	assert_int_equal(unlink(path), 0);
+	s->closed = false;
+	desk_close(s->desk);
+	stand_type(s, "l");
+	assert_true(s->closed);
+	assert_true(path_exists(path));
+	free(path);
+}
+
 /* ------------------------------------------------------------ errands */
 
 static void a_long_errand_holds_the_world_and_can_be_stopped(void **state)
@@ -310,6 +339,7 @@ int main(void)
 		TEST(links_of_help_are_followed_by_keys_and_mouse),
 		TEST(the_sheet_of_keys_scrolls_where_it_is_cut),
 		TEST(quitting_asks_only_where_something_is_lost),
+		TEST(a_session_that_cannot_be_kept_is_asked_about),
 		TEST(a_long_errand_holds_the_world_and_can_be_stopped),
 		TEST(keys_of_the_window_paint_what_they_change),
 	};
