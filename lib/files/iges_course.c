@@ -118,13 +118,11 @@ static enum status composite(struct iges *g, int de, int depth, struct iges_cour
 	if (st == ST_OK)
 		st = c.st;
 	for (int i = 0; i < n && st == ST_OK; i++) {
-		int part = iges_int(&c);
-		const struct iges_entry *e = iges_entry(g, part);
+		int part;
 		struct iges_course one = { 0 };
-		if (e && (e->type == 116 || e->type == 132))
-			continue;
-		st = c.st == ST_OK ? course_of(g, part, depth + 1, &one) : c.st;
-		if (st == ST_OK)
+		const bool curve = iges_part(&c, &part);
+		st = curve ? course_of(g, part, depth + 1, &one) : c.st;
+		if (st == ST_OK && curve)
 			st = append(out, &one);
 		iges_course_finish(&one);
 	}

@@ -161,6 +161,13 @@ int iges_count(struct iges_cursor *c, const char *what, int64_t lo, int64_t hi)
 	return c->st == ST_OK ? n : 0;
 }
 
+bool iges_part(struct iges_cursor *c, int *de)
+{
+	*de = iges_int(c);
+	const struct iges_entry *e = iges_entry(c->g, *de);
+	return c->st == ST_OK && !(e && (e->type == 116 || e->type == 132));
+}
+
 int64_t iges_left(const struct iges_cursor *c)
 {
 	if (c->ended || c->st != ST_OK)
@@ -270,4 +277,14 @@ enum status iges_open(struct iges *g, int de, int type, struct iges_cursor *c)
 	               ? c->st
 	               : iges_refuse(g, "its parameters (line P%d) do not begin with its type",
 	                             e->data);
+}
+
+enum status iges_open_nested(struct iges *g, int de, int depth, struct iges_cursor *c)
+{
+	if (depth > NESTING_MAX)
+		return iges_refuse(g,
+		                   "entities that are made of each other in a circle, or more "
+		                   "than %d deep",
+		                   NESTING_MAX);
+	return iges_open(g, de, 0, c);
 }

@@ -54,12 +54,9 @@ static enum status read_composite(struct iges_cursor *c, int depth, struct curve
 	struct curve *parts = calloc((size_t)n, sizeof *parts);
 	enum status st = parts ? ST_OK : ST_RESOURCE;
 	for (int i = 0; i < n && st == ST_OK; i++) {
-		int de = iges_int(c);
-		const struct iges_entry *e = iges_entry(g, de);
-		if (c->st != ST_OK)
+		int de;
+		if (!iges_part(c, &de))
 			st = c->st;
-		else if (e && (e->type == 116 || e->type == 132))
-			continue;
 		else if ((st = iges_curve(g, de, depth + 1, &parts[have], NULL)) == ST_OK)
 			have++;
 	}
@@ -204,12 +201,7 @@ enum status iges_curve(struct iges *g, int de, int depth, struct curve *out, str
 	*out = (struct curve){ 0 };
 	if (!c)
 		c = &own;
-	if (depth > NESTING_MAX)
-		return iges_refuse(g,
-		                   "entities that are made of each other in a circle, or more "
-		                   "than %d deep",
-		                   NESTING_MAX);
-	enum status st = iges_open(g, de, 0, c);
+	enum status st = iges_open_nested(g, de, depth, c);
 	if (st != ST_OK)
 		return st;
 	const struct iges_entry *e = iges_entry(g, de);

@@ -192,10 +192,14 @@ struct iges_cursor {
 /* Open entity `de`, behind its type number. type 0: any. Errors: ST_INPUT with g->reason,
  * ST_CANCELLED. */
 enum status iges_open(struct iges *g, int de, int type, struct iges_cursor *c);
+/* Likewise of any type, `depth` entities down from the one that is read. */
+enum status iges_open_nested(struct iges *g, int de, int depth, struct iges_cursor *c);
 double iges_real(struct iges_cursor *c); /* 0 where missing */
 int iges_int(struct iges_cursor *c);
 /* A count or an index: fails outside lo .. hi. */
 int iges_count(struct iges_cursor *c, const char *what, int64_t lo, int64_t hi);
+/* The next curve of a 102; points between curves carry no shape. False: c has failed, or it is a point. */
+bool iges_part(struct iges_cursor *c, int *de);
 /* n reals to out, `group` at a time, groups `stride` doubles apart. Missing ones fail. */
 void iges_reals(struct iges_cursor *c, double *out, size_t n, int group, size_t stride);
 /* n reals of an entity with so many; empty ones are 0, as the standard has it. */

@@ -173,12 +173,7 @@ enum status iges_surface(struct iges *g, int de, int depth, struct surface *out,
 	*out = (struct surface){ 0 };
 	if (!c)
 		c = &own;
-	if (depth > NESTING_MAX)
-		return iges_refuse(g,
-		                   "entities that are made of each other in a circle, or more "
-		                   "than %d deep",
-		                   NESTING_MAX);
-	enum status st = iges_open(g, de, 0, c);
+	enum status st = iges_open_nested(g, de, depth, c);
 	if (st != ST_OK)
 		return st;
 	const struct iges_entry *e = iges_entry(g, de);

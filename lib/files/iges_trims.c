@@ -24,12 +24,8 @@ static enum status add_composite(struct iges *g, int de, int depth, struct trim_
 	if (st == ST_OK)
 		st = c.st;
 	for (int i = 0; i < n && st == ST_OK; i++) {
-		int part = iges_int(&c);
-		const struct iges_entry *e = iges_entry(g, part);
-		if (c.st != ST_OK)
-			st = c.st;
-		else if (!e || (e->type != 116 && e->type != 132))
-			st = add_parts(g, part, depth + 1, out);
+		int part;
+		st = iges_part(&c, &part) ? add_parts(g, part, depth + 1, out) : c.st;
 	}
 	if (st == ST_OK)
 		st = iges_matrix(g, iges_entry(g, de)->transform, m, &any);
