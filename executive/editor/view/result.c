@@ -107,7 +107,8 @@ static struct vec3 first_point(const struct model *m)
 
 static void load_groups(struct result *r)
 {
-	qsort(r->groups, (size_t)r->n, sizeof *r->groups, by_value);
+	if (r->n)
+		qsort(r->groups, (size_t)r->n, sizeof *r->groups, by_value);
 	choose_strong(r);
 	for (int i = 0; i < r->n; i++)
 		gpu_poly_load(&r->groups[i].gpu, &r->groups[i].poly);
