@@ -17,10 +17,9 @@ enum { NEWTON_STEPS = 7, FOLD_STEPS = 12, QUARTERINGS = 6 };
 /* Candidates may lie out of the leaf by this much; the finish decides. */
 #define SLACK 2e-5f
 
-/* What the iteration finds this far from the middle of a node may be another root than the node's,
- * unless the Jacobian cannot vanish on the way there either. */
-#define ASIDE      1.6f
-#define WIDE_ASIDE 2.0f
+/* An iteration that ends this far from the middle of a node has lost its way on a leaf that is long
+ * and bent, as on the edge of a blade: it says nothing of the node. */
+#define ASIDE 6.0f
 
 /* One leaf, or a part of it: s = s0 + half * s', t likewise. */
 struct node {
@@ -59,7 +58,6 @@ INLINE void node_evaluate(const vf *f, vf s, vf t, vf *value, vf *ds, vf *dt)
 struct newton {
 	vf s, t;
 	vf reach_s, reach_t; /* no solution in the node can send the iteration beyond these */
-	vi wide;             /* the Jacobian does not vanish in twice the node, too */
 	vf unsure;           /* how far s and t may still be off, together */
 	vi found;            /* in the node, or so near that rounding decides */
 	vi stuck;            /* neither found nor gone */
@@ -106,9 +104,7 @@ INLINE void node_newton(const struct node *n, float error, bool fold, vi live, s
 			vi in = ends & (size(s) <= edge + off_s) & (size(t) <= edge + off_t);
 
 			x->found |= in;
-			vf aside = larger(size(s), size(t));
-			x->stuck |=
-			        ends & ~in & ((aside > WIDE_ASIDE) | (~x->wide & (aside > ASIDE)));
+			x->stuck |= ends & ~in & ((size(s) > ASIDE) | (size(t) > ASIDE));
 			x->s = pick(in, s, x->s);
 			x->t = pick(in, t, x->t);
 			x->unsure = pick(in, off_s + off_t, x->unsure);
@@ -264,10 +260,9 @@ static __attribute__((noinline)) vi node_trace(const struct leaf_call *c, const 
 		return none;
 
 	vi solve = act;
-	vf once = size(s1) * z2t + size(t2) * z1s + size(s2) * z1t + size(t1) * z2s;
-	vf twice = z1s * z2t + z1t * z2s;
 	if (n->depth < QUARTERINGS)
-		solve &= ad > once + twice;
+		solve &= ad > size(s1) * z2t + size(t2) * z1s + size(s2) * z1t + size(t1) * z2s +
+		                      z1s * z2t + z1t * z2s;
 	vi open = act & ~solve, hit = none;
 
 	if (any(solve)) {
@@ -275,7 +270,6 @@ static __attribute__((noinline)) vi node_trace(const struct leaf_call *c, const 
 		vi far = (size(s) > 1.2f) | (size(t) > 1.2f);
 		/* thin curved leaves: the first step may go many widths aside and come back */
 		struct newton x = {
-			.wide = ad > 4 * once + 16 * twice,
 			.s = pick(far, fill(0), s),
 			.t = pick(far, fill(0), t),
 			.reach_s = 3 + 2 * (size(t2) * rest1 + size(t1) * rest2) * size(inverse),

@@ -263,11 +263,11 @@ static __attribute__((noinline)) bool single_by_packet(struct single *q, uint32_
 /*
  * What the iteration from the linear solution comes to: a hit in the node, none, or unsure. What is
  * left after a step is bounded by the bend; often that says after the first that the hit is out of
- * the node, or of what is looked for. wide: as in struct newton.
+ * the node, or of what is looked for.
  */
 static enum single_end single_solve(struct single *q, uint32_t number, const struct single_node *n,
-                                    float s, float t, float reach_s, float reach_t, bool wide,
-                                    float dc, bool *stuck)
+                                    float s, float t, float reach_s, float reach_t, float dc,
+                                    bool *stuck)
 {
 	const struct ray_leaf *l = &q->call.scene->cut.leaves[number];
 	float edge = 1 + SLACK / n->half;
@@ -295,7 +295,7 @@ static enum single_end single_solve(struct single *q, uint32_t number, const str
 		float off_s = off * fabsf(inverse) * (fabsf(x.f1.t) + fabsf(x.f2.t));
 		float off_t = off * fabsf(inverse) * (fabsf(x.f1.s) + fabsf(x.f2.s));
 		if (fabsf(s) > edge + off_s || fabsf(t) > edge + off_t) {
-			*stuck = fmaxf(fabsf(s), fabsf(t)) > (wide ? WIDE_ASIDE : ASIDE);
+			*stuck = fabsf(s) > ASIDE || fabsf(t) > ASIDE;
 			return SINGLE_MISS;
 		}
 		float along = x.along.v + ds * x.along.s + dt * x.along.t;
@@ -394,14 +394,13 @@ static enum single_end single_node_trace(struct single *q, uint32_t number,
 	if (n->depth == QUARTERINGS)
 		return SINGLE_UNSURE;
 
-	float once = fabsf(s1) * z2t + fabsf(t2) * z1s + fabsf(s2) * z1t + fabsf(t1) * z2s;
-	float twice = z1s * z2t + z1t * z2s;
-	if (ad > once + twice) {
+	if (ad > fabsf(s1) * z2t + fabsf(t2) * z1s + fabsf(s2) * z1t + fabsf(t1) * z2s + z1s * z2t +
+	                 z1t * z2s) {
 		float inverse = det / (det * det + 1e-30f);
 		bool stuck = false;
-		enum single_end end = single_solve(
-		        q, number, n, ns * inverse, nt * inverse, 3 + 2 * over_s * fabsf(inverse),
-		        3 + 2 * over_t * fabsf(inverse), ad > 4 * once + 16 * twice, dc, &stuck);
+		enum single_end end = single_solve(q, number, n, ns * inverse, nt * inverse,
+		                                   3 + 2 * over_s * fabsf(inverse),
+		                                   3 + 2 * over_t * fabsf(inverse), dc, &stuck);
 
 		if (!stuck)
 			return end;
@@ -478,15 +477,13 @@ static bool single_trace(struct single *q, uint32_t number)
 	bool stuck = true;
 
 	/* as in single_node_trace, with the leaf's own bounds */
-	float once = ss * rest_t + ts * rest_s, twice = 2 * rest_s * rest_t;
-	if (ad > once + twice) {
+	if (ad > ss * rest_t + ts * rest_s + 2 * rest_s * rest_t) {
 		float inverse = 1 / det;
 
 		stuck = false;
 		end = single_solve(q, number, &n, ns * inverse, nt * inverse,
 		                   3 + 2 * ts * rest * fabsf(inverse),
-		                   3 + 2 * ss * rest * fabsf(inverse), ad > 4 * once + 16 * twice,
-		                   dc, &stuck);
+		                   3 + 2 * ss * rest * fabsf(inverse), dc, &stuck);
 	}
 	if (stuck)
 		end = single_node_trace(q, number, &n, dc);
