@@ -15,8 +15,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 PEERS = ["libsisl-dev", "libocct-modeling-algorithms-dev", "libembree-dev", "povray"]
 
 # What is known of why a row may not be met: pattern of its name, and the reason.
-REASONS = [
-]
+REASONS = []
 BUSY = 1.3  # wall / CPU above which the machine was not alone
 
 
