@@ -192,12 +192,11 @@ void desk_point_move(struct desk *d)
 
 void desk_point_release(struct desk *d, bool keep)
 {
-	const struct Ful *f = world_by_id(d->world, d->pick.thing);
-
 	if (!d->point_moved)
 		return;
 	d->point_moved = false;
-	world_step_end(d->world, false);
+	world_step_end(d->world, false); /* what was shown meanwhile goes */
+	const struct Ful *f = world_by_id(d->world, d->pick.thing);
 	if (!f)
 		return;
 	if (!keep) {
