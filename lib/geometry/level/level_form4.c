@@ -49,7 +49,7 @@ WIDE void form_cross4(const double *a, int am, int an, const double *b, int bm, 
 	for (int i = 0; i <= am; i++)
 		for (int j = 0; j <= an; j++, x++) {
 			const vec4 *y = (const vec4 *)b;
-			vec4 x1, y1, r;
+			vec4 x1 = { 0 }, y1 = { 0 }, r;
 			turn(x, &x1);
 			for (int k = 0; k <= bm; k++) {
 				vec4 *o = (vec4 *)out + (size_t)(i + k) * (n + 1) + j;
