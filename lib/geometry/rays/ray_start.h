@@ -75,8 +75,11 @@ static void packet_prepare(struct packet *p, const struct ray_scene *s,
 		p->neard[h] = a->near.v[h];
 		p->fard[h] = a->far.v[h];
 		p->claim[h] = (vl){ 0 } - 1;
+		p->area[h] = p->a[0][h] = p->a[1][h] = filld(0);
 	}
 	for (int e = 0; e < 3; e++) {
+		memset(p->point[e], 0, sizeof p->point[e]);
+		memset(p->normal[e], 0, sizeof p->normal[e]);
 		p->d[e] = to_float(p->dd[e]);
 		p->n1[e] = to_float(p->nd1[e]);
 		p->n2[e] = to_float(p->nd2[e]);
