@@ -2,13 +2,10 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
-#include <fontconfig/fontconfig.h>
-#include <pango/pangocairo.h>
 
 #include "construct.h"
 #include "view_place.h"
@@ -108,22 +105,17 @@ static void thousands_are_drawn(void **state)
 	world_destroy(w);
 }
 
-int main(void)
+static int all_tests(void)
 {
 	static const struct CMUnitTest tests[] = {
 		cmocka_unit_test(wild_surfaces_do_no_harm),
 		cmocka_unit_test(many_points_are_drawn),
 		cmocka_unit_test(thousands_are_drawn),
 	};
-	struct report_store why;
-	if (!place_open(&why)) {
-		printf("1..0 # SKIP %s\n", why.error);
-		return 0;
-	}
-	int failed = cmocka_run_group_tests(tests, NULL, NULL);
-	place_close();
-	pango_cairo_font_map_set_default(NULL);
-	cairo_debug_reset_static_data();
-	FcFini();
-	return failed;
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+int main(void)
+{
+	return place_tests(all_tests);
 }

@@ -12,6 +12,8 @@
 
 #include <cmocka.h>
 #include <epoxy/gl.h>
+#include <fontconfig/fontconfig.h>
+#include <pango/pangocairo.h>
 
 #include "construct.h"
 #include "refine.h"
@@ -20,7 +22,7 @@ static struct offscreen *screen;
 static struct view *the_view;
 static GLuint frame, buffer;
 
-bool place_open(struct report_store *why)
+static bool place_open(struct report_store *why)
 {
 	report_store_init(why);
 	if (offscreen_create(&screen, &why->report) != ST_OK)
@@ -44,13 +46,28 @@ static int keep_loaded(struct dl_phdr_info *library, size_t size, void *data)
 	return 0;
 }
 
-void place_close(void)
+static void place_close(void)
 {
 	dl_iterate_phdr(keep_loaded, NULL);
 	glDeleteFramebuffers(1, &frame);
 	glDeleteRenderbuffers(1, &buffer);
 	view_destroy(the_view);
 	offscreen_destroy(screen);
+}
+
+int place_tests(int (*run)(void))
+{
+	struct report_store why;
+	if (!place_open(&why)) {
+		printf("1..0 # SKIP %s\n", why.error);
+		return 0;
+	}
+	int failed = run();
+	place_close();
+	pango_cairo_font_map_set_default(NULL);
+	cairo_debug_reset_static_data();
+	FcFini();
+	return failed;
 }
 
 struct view *place_view(void)

@@ -6,9 +6,9 @@
 
 enum { SIDE = 240 }; /* px of the pictures */
 
-/* One GL context for the program; false: there is none here, the reason in *why. */
-bool place_open(struct report_store *why);
-void place_close(void);
+/* Run a program's tests with one GL context for all; where there is none they are skipped, with the
+ * reason. The exit status of the program. */
+int place_tests(int (*run)(void));
 
 /* An empty world, and a view of it; things are moved in and their ids given back. */
 struct world *place_world(void);
