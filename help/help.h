@@ -69,6 +69,14 @@ struct help_hit {
 size_t help_search(const struct help *h, const struct menu_set *menus, const char *words,
                    struct help_hit *hits, size_t max);
 
+/*
+ * The routines with names or titles most like what was typed, the likest first, for when help_search()
+ * finds nothing; score is less by one for each letter that differs. Gives back how many were written to
+ * hits, at most `max`; of no letters none.
+ */
+size_t help_nearest(const struct help *h, const struct menu_set *menus, const char *typed,
+                    struct help_hit *hits, size_t max);
+
 /* A text of h for a terminal, lines of at most `width` columns. Caller frees; NULL: memory ran out. */
 char *help_print(const struct help *h, const struct help_text *t, int width);
 

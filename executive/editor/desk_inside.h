@@ -8,7 +8,7 @@
 /* how much is kept, and how much is shown of what is found */
 enum { PATH_MAX_DEPTH = 16, ENTRIES_MAX = 14, TILES_MAX = 8, PICKED_MAX = 512 };
 enum { MESSAGES_MAX = 200, HISTORY_MAX = 100, FIELDS_MAX = 48, BUTTONS_MAX = 4 };
-enum { CANDIDATES_MAX = 8, RESULTS_MAX = 8, FOUND_MAX = 256 };
+enum { CANDIDATES_MAX = 8, RESULTS_MAX = 8, NEAREST_MAX = 2, FOUND_MAX = 256 };
 
 /* What covers the view or the panel, and takes the keys. */
 enum page { PAGE_NONE, PAGE_JOBS, PAGE_SEARCH, PAGE_HELP, PAGE_KEYS, PAGE_MESSAGES, PAGE_QUESTION };
@@ -103,7 +103,8 @@ struct desk {
 	char help_code[8];
 	struct typed search;
 	const struct Menu_Entry *found[FOUND_MAX]; /* best first */
-	int n_found, found_chosen;
+	int n_found, found_chosen; /* chosen: -1 until the user says so among the nearest */
+	bool found_near;           /* nothing was found: they are the nearest by name */
 	struct question question;
 
 	/* jobs */

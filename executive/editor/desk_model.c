@@ -26,8 +26,8 @@ static const char *row_state(struct desk *d, struct scraps *s, const struct rout
 	}
 	if (!strcmp(t->code, "V162"))
 		return d->page == PAGE_JOBS ? "shown" : scraps_print(s, "%d", d->shelf.n);
-	if (why)
-		return scraps_print(s, "%s", why);
+	if (why) /* the names of what is not made yet are long */
+		return t->run ? scraps_print(s, "%s", why) : "later";
 	routine_state(t, d->world, state);
 	return *state ? scraps_print(s, "%s", state) : t->kind == ROUTINE_JOB ? "job" : "";
 }

@@ -135,7 +135,7 @@ void desk_fill_search(struct desk *d)
 	scraps_reset(s);
 	*m = (struct search_model){ .typed = d->search.s,
 		                    .caret = d->search.caret,
-		                    .found = d->n_found,
+		                    .found = d->found_near ? 0 : d->n_found,
 		                    .chosen = d->found_chosen };
 	for (const struct routine *t = routine_table; t->code; t++)
 		m->all++;

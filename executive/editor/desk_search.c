@@ -8,19 +8,27 @@ static void changed(struct desk *d)
 	desk_dirty(d, desk_bit(PART_PAGE) | desk_bit(PART_FOOT));
 }
 
-void desk_search_changed(struct desk *d)
+static void take(struct desk *d, const struct help_hit *hits, size_t n)
 {
-	struct help_hit *hits = calloc(help_count(d->house.help) + 1, sizeof *hits);
-	size_t n = !hits || !d->search.n ? 0
-	                                 : help_search(d->house.help, d->house.menus, d->search.s,
-	                                               hits, help_count(d->house.help));
-
-	d->n_found = d->found_chosen = 0;
+	d->n_found = 0;
 	for (size_t i = 0; i < n; i++) {
 		const struct Menu_Entry *e = desk_leaf(d, hits[i].text->code);
 		if (e && e->parent && d->n_found < FOUND_MAX)
 			d->found[d->n_found++] = e;
 	}
+}
+
+void desk_search_changed(struct desk *d)
+{
+	struct help_hit *hits = calloc(help_count(d->house.help) + 1, sizeof *hits);
+	const struct help *h = d->house.help;
+	const bool ask = hits && d->search.n;
+
+	take(d, hits, ask ? help_search(h, d->house.menus, d->search.s, hits, help_count(h)) : 0);
+	d->found_near = ask && !d->n_found;
+	if (d->found_near)
+		take(d, hits, help_nearest(h, d->house.menus, d->search.s, hits, NEAREST_MAX));
+	d->found_chosen = d->found_near ? -1 : 0; /* a guess is not run by Enter alone */
 	free(hits);
 	changed(d);
 }
@@ -57,7 +65,7 @@ bool desk_search_key(struct desk *d, enum desk_key key)
 
 	switch ((int)key) {
 	case KEY_UP:
-		d->found_chosen = n ? (d->found_chosen + n - 1) % n : 0;
+		d->found_chosen = n ? (d->found_chosen > 0 ? d->found_chosen : n) - 1 : 0;
 		break;
 	case KEY_DOWN:
 		d->found_chosen = n ? (d->found_chosen + 1) % n : 0;

@@ -102,6 +102,53 @@ static void every_leaf_does_something_or_says_why(void **state)
 	assert_true(told > 60);
 }
 
+/* No name of a row is cut, whatever stands beside it. */
+static int uncut(struct stand *s)
+{
+	const struct menu_model *m = desk_menu_model(s->desk);
+
+	for (int i = 0; i < N_DESK_PARTS; i++) {
+		const struct hits *h = desk_hits(s->desk, (enum desk_part)i);
+		for (int k = 0; k < h->n; k++)
+			for (int row = 0; row < m->n_rows && h->hit[k].kind == HIT_TIP; row++)
+				if (!strcmp(h->hit[k].tip, m->rows[row].name))
+					fail_msg("%s of %s is cut beside '%s'", m->rows[row].name,
+					         m->title, m->rows[row].state);
+	}
+	return m->n_rows;
+}
+
+/* All levels below the one that is shown; how many rows. */
+static int walk_uncut(struct stand *s)
+{
+	int n = uncut(s);
+
+	for (int i = 0; i < desk_menu_model(s->desk)->n_rows; i++) {
+		if (!desk_menu_model(s->desk)->rows[i].is_menu)
+			continue;
+		stand_click(s, HIT_MENU_ROW, i);
+		n += walk_uncut(s);
+		stand_key(s, KEY_ESCAPE);
+	}
+	return n;
+}
+
+static void every_name_fits_the_smallest_window(void **state)
+{
+	struct stand *s = *state;
+
+	for (int open = 0; open < 2; open++) {
+		if (open)
+			stand_add_plate(s, "plate");
+		desk_resize(s->desk, 1024, 700, 1);
+		stand_paint(s);
+		assert_true(walk_uncut(s) > 180);
+		stand_type(s, "w");
+		assert_true(walk_uncut(s) > 10);
+		stand_key(s, KEY_ESCAPE);
+	}
+}
+
 static void greyed_rows_say_why(void **state)
 {
 	struct stand *s = *state;
@@ -137,10 +184,42 @@ static void routines_are_found_by_name_code_and_help(void **state)
 	assert_null(desk_menu_model(s->desk)->form_code);
 	desk_key(s->desk, KEY_CTRL_A + 'K' - 'A', MOD_CTRL);
 	stand_type(s, "zzzzqq");
-	assert_int_equal(desk_search_model(s->desk)->n, 0);
+	assert_int_equal(desk_search_model(s->desk)->found, 0);
 	stand_key(s, KEY_ENTER);
 	stand_key(s, KEY_ESCAPE);
 	assert_null(desk_search_model(s->desk));
+}
+
+static void where_nothing_is_found_the_nearest_two_are_offered(void **state)
+{
+	struct stand *s = *state;
+	const struct search_model *m;
+
+	stand_type(s, "/");
+	assert_int_equal(desk_search_model(s->desk)->n, 0);
+	stand_type(s, "gausian");
+	m = desk_search_model(s->desk);
+	assert_int_equal(m->found, 0);
+	assert_int_equal(m->n, 2);
+	assert_int_equal(m->chosen, -1);
+	assert_string_equal(m->results[0].name, "GAUSSIAN");
+	assert_non_null(stand_hit(s, HIT_RESULT, 1, -1));
+	assert_null(stand_hit(s, HIT_RESULT, 2, -1));
+	stand_key(s, KEY_ENTER); /* a guess is taken only where it was chosen */
+	assert_non_null(desk_search_model(s->desk));
+	stand_key(s, KEY_UP);
+	assert_int_equal(desk_search_model(s->desk)->chosen, 1);
+	stand_key(s, KEY_DOWN);
+	assert_int_equal(desk_search_model(s->desk)->chosen, 0);
+	stand_key(s, KEY_TAB);
+	assert_null(desk_search_model(s->desk));
+	stand_row_of(s, "GAUSSIAN");
+	stand_type(s, "/gausian");
+	for (int i = 0; i < 4; i++)
+		stand_key(s, KEY_BACKSPACE);
+	m = desk_search_model(s->desk);
+	assert_true(m->found > 0);
+	assert_int_equal(m->chosen, 0);
 }
 
 static void help_is_of_what_is_under_the_mouse(void **state)
@@ -334,7 +413,9 @@ int main(void)
 		TEST(the_world_menu_is_a_key_away_and_back),
 		TEST(every_leaf_does_something_or_says_why),
 		TEST(greyed_rows_say_why),
+		TEST(every_name_fits_the_smallest_window),
 		TEST(routines_are_found_by_name_code_and_help),
+		TEST(where_nothing_is_found_the_nearest_two_are_offered),
 		TEST(help_is_of_what_is_under_the_mouse),
 		TEST(links_of_help_are_followed_by_keys_and_mouse),
 		TEST(the_sheet_of_keys_scrolls_where_it_is_cut),

@@ -106,6 +106,46 @@ static void all_words_must_occur(void **state)
 	help_destroy(h);
 }
 
+/* Of the name or the title; other letters, letters left out, put in and swapped, other words behind. */
+static void the_nearest_are_near(void **state)
+{
+	static const struct {
+		const char *typed;
+		int changes; /* of letters */
+		const char *word;
+	} cases[] = {
+		{ "gausian", 1, "GAUSSIAN" },       { "Isofotes", 2, "ISOPHOTES" },
+		{ "reflektion", 1, "REFLECT" },     { "segmnetation", 2, "SEGMENTATION" },
+		{ "  porcupyne ", 1, "PORCUPINE" }, { "GAUSSIAN", 0, "GAUSSIAN" },
+	};
+	struct help *h = read_help(NULL, 0);
+	struct menu_set set;
+	struct help_hit hits[2];
+
+	(void)state;
+	assert_int_equal(menu_set_read(&set, NULL, 0, NULL), ST_OK);
+	for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+		assert_int_equal(help_nearest(h, &set, cases[k].typed, hits, 2), 2);
+		const char *code = hits[0].text->code;
+		if (hits[0].score != -cases[k].changes ||
+		    (!strcasestr(hits[0].text->title, cases[k].word) &&
+		     !strcasestr(menu_set_find(&set, code, NULL)->name, cases[k].word)))
+			fail_msg("'%s': %s %s, %d", cases[k].typed, code, hits[0].text->title,
+			         hits[0].score);
+		assert_true(hits[1].score <= hits[0].score);
+		assert_string_not_equal(hits[1].text->code, code);
+	}
+	char long_one[501] = { 0 };
+	memset(long_one, 'x', 500);
+	assert_int_equal(help_nearest(h, &set, long_one, hits, 2), 2);
+	assert_int_equal(help_nearest(h, NULL, "zzzzqq", hits, 2), 2);
+	assert_int_equal(help_nearest(h, NULL, "zzzzqq", NULL, 0), 0);
+	assert_int_equal(help_nearest(h, NULL, "", hits, 2), 0);
+	assert_int_equal(help_nearest(h, NULL, " \t ", hits, 2), 0);
+	menu_set_finish(&set);
+	help_destroy(h);
+}
+
 static void a_page_fits_its_width(void **state)
 {
 	struct help *h = read_help(NULL, 0);
@@ -244,6 +284,7 @@ int main(void)
 		cmocka_unit_test(every_entry_has_its_text),
 		cmocka_unit_test(what_is_looked_for_comes_first),
 		cmocka_unit_test(all_words_must_occur),
+		cmocka_unit_test(the_nearest_are_near),
 		cmocka_unit_test(a_page_fits_its_width),
 		cmocka_unit_test(a_page_of_the_window_has_sections),
 		cmocka_unit_test(own_texts_replace_and_add),
