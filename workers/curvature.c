@@ -272,15 +272,10 @@ static enum status state_figures(struct work *w)
 	struct extremes all;
 	extremes_init(&all);
 	for (size_t i = 0; i < exr_tiles(&s->image); i++) {
-		const char *bytes;
-		size_t n;
 		struct extremes e;
-		enum status st = work_get(w, i, &bytes, &n);
+		enum status st = work_read_end(w, i, &e, sizeof e);
 		if (st != ST_OK)
 			return st;
-		if (n < sizeof e)
-			return report_error(&w->report, ST_INTERNAL, "unit %zu is too short", i);
-		memcpy(&e, bytes + n - sizeof e, sizeof e);
 		for (int q = 0; q < N_QUANTITIES; q++)
 			extremes_add(&all, q, e.lo[q], e.lo_uv[q], e.hi[q], e.hi_uv[q]);
 		all.undefined += e.undefined;
@@ -298,19 +293,29 @@ static enum status state_figures(struct work *w)
 	return work_figures(w, figures);
 }
 
+struct map_writer {
+	struct work *w;
+	struct text tile; /* owned; the last one read */
+};
+
 static enum status give_tile(void *data, size_t i, const char **bytes, size_t *n)
 {
-	enum status st = work_get(data, i, bytes, n);
-	if (st == ST_OK)
-		*n -= sizeof(struct extremes);
-	return st;
+	struct map_writer *x = data;
+	enum status st = work_read(x->w, i, &x->tile);
+	if (st != ST_OK)
+		return st;
+	*bytes = x->tile.s;
+	*n = x->tile.n - sizeof(struct extremes);
+	return ST_OK;
 }
 
 static enum status write_map(void *data, const char *path, const struct report *r)
 {
-	struct work *w = data;
-	const struct state *s = w->state;
-	return curvature_write(w, path, &s->image, give_tile, w, r);
+	struct map_writer x = { .w = data };
+	const struct state *s = x.w->state;
+	enum status st = curvature_write(x.w, path, &s->image, give_tile, &x, r);
+	text_finish(&x.tile);
+	return st;
 }
 
 /* The map's picture and what is seen from the camera have one key. */

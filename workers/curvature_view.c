@@ -111,13 +111,17 @@ struct finish {
 	size_t first;
 	enum quantity shown;
 	const struct colormap *map;
+	struct text tile;        /* owned; the last one read */
 	struct exr_picture seen; /* owned; the image as written */
 };
 
 static enum status give_tile(void *data, size_t i, const char **bytes, size_t *n)
 {
 	struct finish *f = data;
-	return work_get(f->w, f->first + i, bytes, n);
+	enum status st = work_read(f->w, f->first + i, &f->tile);
+	*bytes = f->tile.s;
+	*n = f->tile.n;
+	return st;
 }
 
 static enum status write_image(void *data, const char *path, const struct report *r)
@@ -182,6 +186,7 @@ enum status curvature_view_finish(const struct curvature_view *v, struct work *w
 	enum status st = work_output(w, ".view.exr", write_image, &f);
 	if (st == ST_OK)
 		st = work_output(w, ".view.png", write_picture, &f);
+	text_finish(&f.tile);
 	exr_picture_finish(&f.seen);
 	return st;
 }

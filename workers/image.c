@@ -156,36 +156,13 @@ enum status image_tile_put(const struct image_tile *t, struct work *w)
 	return st;
 }
 
-static enum status unit_stats(struct work *w, size_t unit, struct image_stats *out)
-{
-	const char *bytes;
-	size_t n;
-	enum status st = work_get(w, unit, &bytes, &n);
-
-	if (st != ST_OK)
-		return st;
-	if (n < sizeof *out)
-		return report_error(&w->report, ST_INTERNAL, "tile %zu is too short", unit);
-	memcpy(out, bytes + n - sizeof *out, sizeof *out);
-	return ST_OK;
-}
-
-enum status image_unit(struct work *w, size_t unit, const char **bytes, size_t *n)
-{
-	enum status st = work_get(w, unit, bytes, n);
-
-	if (st == ST_OK)
-		*n -= *n < sizeof(struct image_stats) ? *n : sizeof(struct image_stats);
-	return st;
-}
-
 enum status image_gather(const struct image *im, struct work *w, json_t **figures)
 {
 	struct image_stats all = { .near = INFINITY, .far = -INFINITY };
 
 	for (size_t i = 0; i < image_units(im); i++) {
 		struct image_stats s;
-		enum status st = unit_stats(w, i, &s);
+		enum status st = work_read_end(w, i, &s, sizeof s);
 
 		if (st != ST_OK)
 			return st;
@@ -215,6 +192,7 @@ enum status image_gather(const struct image *im, struct work *w, json_t **figure
 struct image_writer {
 	const struct image *im;
 	struct work *w;
+	struct text tile;           /* owned; the last one read */
 	bool keep;                  /* read it back for the picture */
 	struct exr_picture picture; /* owned */
 };
@@ -224,7 +202,13 @@ static enum status writer_tile(void *data, size_t i, const char **bytes, size_t 
 	struct image_writer *x = data;
 
 	work_phase(x->w, "writing", i, image_units(x->im));
-	return image_unit(x->w, i, bytes, n);
+	enum status st = work_read(x->w, i, &x->tile);
+
+	if (st != ST_OK)
+		return st;
+	*bytes = x->tile.s;
+	*n = x->tile.n - sizeof(struct image_stats);
+	return ST_OK;
 }
 
 static enum status write_image(void *data, const char *path, const struct report *r)
@@ -268,6 +252,7 @@ enum status image_output(const struct image *im, struct work *w, const char *ext
 		st = work_output(w, extension, write_image, &x);
 	if (st == ST_OK && png)
 		st = work_output(w, png, write_picture, &x);
+	text_finish(&x.tile);
 	exr_picture_finish(&x.picture);
 	return st;
 }

@@ -93,9 +93,6 @@ enum status image_tile_put(const struct image_tile *t, struct work *w);
  * pixels, rays, width, height, depth_min, depth_max (null where nothing was hit). New reference, NULL for want of memory. */
 enum status image_gather(const struct image *im, struct work *w, json_t **figures);
 
-/* Packed bytes of a unit without its statistics, for an exr_source of one's own. */
-enum status image_unit(struct work *w, size_t unit, const char **bytes, size_t *n);
-
 /* In finish: write the image under `extension` and, where png is not NULL, the picture of its
  * R G B A channels under that extension. Figures (stolen) are stated first. */
 enum status image_output(const struct image *im, struct work *w, const char *extension,

@@ -136,7 +136,14 @@ enum status work_light(const struct work *w, struct vec3 *out);
 /* Hand over a unit's finished bytes (any thread). */
 enum status work_put(struct work *w, size_t unit, const void *bytes, size_t n);
 
-/* In finish: a unit's bytes, valid until the end. Thread: any. */
+/* In finish: a unit's bytes in place of what *bytes held; the room is used again. Thread: any. */
+enum status work_read(struct work *w, size_t unit, struct text *bytes);
+
+/* In finish: the last n bytes of a unit, not checked for damage: work_read of it, before an output is
+ * whole, does that. Thread: any. */
+enum status work_read_end(struct work *w, size_t unit, void *to, size_t n);
+
+/* In finish: a unit's bytes, valid until the end; all units stay in memory. Thread: any. */
 enum status work_get(struct work *w, size_t unit, const char **bytes, size_t *n);
 
 /* Progress inside begin or finish, where those take longer than half a second; units are told of

@@ -81,6 +81,16 @@ enum status work_put(struct work *w, size_t unit, const void *bytes, size_t n)
 	return st;
 }
 
+enum status work_read(struct work *w, size_t unit, struct text *bytes)
+{
+	return part_read(w->private->part, unit, bytes, &w->report);
+}
+
+enum status work_read_end(struct work *w, size_t unit, void *to, size_t n)
+{
+	return part_read_end(w->private->part, unit, to, n, &w->report);
+}
+
 enum status work_get(struct work *w, size_t unit, const char **bytes, size_t *n)
 {
 	return part_get(w->private->part, unit, bytes, n, &w->report);

@@ -49,6 +49,16 @@ static bool text_room(struct text *t, size_t n)
 	return true;
 }
 
+char *text_add_room(struct text *t, size_t n)
+{
+	if (!text_room(t, n))
+		return NULL;
+	char *room = t->s + t->n;
+	t->n += n;
+	t->s[t->n] = 0;
+	return room;
+}
+
 void text_add_bytes(struct text *t, const void *p, size_t n)
 {
 	if (!text_room(t, n))

@@ -17,6 +17,7 @@ void text_reset(struct text *t); /* empty again, room kept */
 
 void text_add(struct text *t, const char *s);
 void text_add_bytes(struct text *t, const void *p, size_t n);
+char *text_add_room(struct text *t, size_t n);  /* n bytes for the caller to fill; NULL: failed */
 void text_add_number(struct text *t, double x); /* shortest decimal that reads back the same */
 void text_addf(struct text *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -66,11 +66,29 @@ static enum status no_memory(const struct report *r, const char *path)
 	return report_error(r, ST_RESOURCE, "cannot use part file '%s': memory ran out", path);
 }
 
-/* The file's first n bytes; read, not mapped: a file that somebody cuts short must not kill us. */
-static bool read_at(int fd, char *to, size_t n)
+static enum status cut_short(const struct report *r, const struct part *p)
+{
+	return report_error(r, ST_INPUT,
+	                    "cannot read part file '%s': it was cut short meanwhile; start again",
+	                    p->path);
+}
+
+static enum status not_there(const struct report *r, const struct part *p, size_t unit)
+{
+	return report_error(r, ST_INPUT, "unit %zu is not in part file '%s'", unit, p->path);
+}
+
+static enum status damaged(const struct report *r, const struct part *p, size_t unit)
+{
+	return report_error(r, ST_INPUT, "unit %zu in part file '%s' is damaged; remove the file",
+	                    unit, p->path);
+}
+
+/* n bytes from `from` on; read, not mapped: a file that somebody cuts short must not kill us. */
+static bool read_at(int fd, char *to, size_t n, uint64_t from)
 {
 	for (size_t at = 0; at < n;) {
-		ssize_t got = pread(fd, to + at, n - at, (off_t)at);
+		ssize_t got = pread(fd, to + at, n - at, (off_t)(from + at));
 		if (got < 0 && errno == EINTR)
 			continue;
 		if (got <= 0)
@@ -100,12 +118,9 @@ static enum status read_bytes(struct part *p, uint64_t need, uint64_t n, const c
 		return report_error(r, ST_RESOURCE,
 		                    "cannot read part file '%s': memory ran out; allow more",
 		                    p->path);
-	if (!read_at(p->fd, new, (size_t)n)) {
+	if (!read_at(p->fd, new, (size_t)n, 0)) {
 		free(new);
-		return report_error(r, ST_INPUT,
-		                    "cannot read part file '%s': it was cut short meanwhile; start "
-		                    "again",
-		                    p->path);
+		return cut_short(r, p);
 	}
 	p->blocks[p->n_blocks++] = (struct block){ new, (size_t)n };
 	*bytes = new;
@@ -257,11 +272,14 @@ static enum status load(struct part *p, bool *same, const struct report *r)
 	return ST_OK;
 }
 
-/* Make the file one that holds no unit yet. */
-static enum status begin_anew(struct part *p, const struct report *r)
+/* Make the file one that holds no unit yet. An empty one is not cut: ext4 writes a file that was cut
+ * to nothing to the disk when it is closed, though it was removed before. */
+static enum status begin_anew(struct part *p, bool empty, const struct report *r)
 {
 	struct iovec v = { p->header.s, p->header.n };
-	int error = ftruncate(p->fd, 0) < 0 ? errno : write_at(p->fd, &v, 1, 0);
+	int error = !empty && ftruncate(p->fd, 0) < 0 ? errno : 0;
+	if (!error)
+		error = write_at(p->fd, &v, 1, 0);
 	p->end = p->header.n;
 	return error ? fail(r, p, "write", error) : ST_OK;
 }
@@ -284,7 +302,7 @@ enum status part_open(struct part **out, const char *path, const char *key, size
 	if (st == ST_OK && !same) {
 		if (before.st_size > 0)
 			report_warning(r, "part file '%s' is of other work: begun anew", path);
-		st = begin_anew(p, r);
+		st = begin_anew(p, before.st_size == 0, r);
 	} else if (st == ST_OK && ftruncate(p->fd, (off_t)p->end) < 0) {
 		st = fail(r, p, "write", errno);
 	}
@@ -362,27 +380,57 @@ enum status part_put(struct part *p, size_t unit, const void *bytes, size_t n,
 	return error ? fail(r, p, "write", error) : ST_OK;
 }
 
+/* At 0: the unit is not in the file. */
+static struct span find_span(struct part *p, size_t unit)
+{
+	struct span span = { 0 };
+	pthread_mutex_lock(&p->lock);
+	if (unit < p->n_units)
+		span = p->spans[unit];
+	pthread_mutex_unlock(&p->lock);
+	return span;
+}
+
+enum status part_read(struct part *p, size_t unit, struct text *bytes, const struct report *r)
+{
+	char sum[CHECKSUM_SIZE];
+	struct span span = find_span(p, unit);
+	if (!span.at)
+		return not_there(r, p, unit);
+	text_reset(bytes);
+	char *to = text_add_room(bytes, (size_t)span.n);
+	if (!to)
+		return no_memory(r, p->path);
+	if (!read_at(p->fd, sum, sizeof sum, span.at - 2 * CHECKSUM_SIZE) ||
+	    !read_at(p->fd, to, (size_t)span.n, span.at))
+		return cut_short(r, p);
+	return checksum_bytes(to, (size_t)span.n) == get_u64(sum) ? ST_OK : damaged(r, p, unit);
+}
+
+enum status part_read_end(struct part *p, size_t unit, void *to, size_t n, const struct report *r)
+{
+	struct span span = find_span(p, unit);
+	if (!span.at)
+		return not_there(r, p, unit);
+	if (span.n < n)
+		return damaged(r, p, unit);
+	return read_at(p->fd, to, n, span.at + span.n - n) ? ST_OK : cut_short(r, p);
+}
+
 enum status part_get(struct part *p, size_t unit, const char **bytes, size_t *n,
                      const struct report *r)
 {
 	const char *file = NULL;
-	struct span span = { 0 };
-	enum status st = ST_OK;
+	struct span span = find_span(p, unit);
+	if (!span.at)
+		return not_there(r, p, unit);
 	pthread_mutex_lock(&p->lock);
-	if (unit < p->n_units)
-		span = p->spans[unit];
-	if (span.at)
-		st = read_bytes(p, span.at + span.n, p->end, &file, r);
+	enum status st = read_bytes(p, span.at + span.n, p->end, &file, r);
 	pthread_mutex_unlock(&p->lock);
 	if (st != ST_OK)
 		return st;
-	if (!span.at)
-		return report_error(r, ST_INPUT, "unit %zu is not in part file '%s'", unit,
-		                    p->path);
 	if (checksum_bytes(file + span.at, (size_t)span.n) != get_u64(file + span.at - 16))
-		return report_error(r, ST_INPUT,
-		                    "unit %zu in part file '%s' is damaged; remove the file", unit,
-		                    p->path);
+		return damaged(r, p, unit);
 	*bytes = file + span.at;
 	*n = (size_t)span.n;
 	return ST_OK;

@@ -15,6 +15,7 @@
 #include <stdint.h>
 
 #include "report.h"
+#include "text.h"
 
 struct part; /* opaque; an open part file */
 
@@ -35,6 +36,15 @@ size_t part_count(const struct part *p); /* units in the file */
 /* Append one unit's bytes; a unit that is there already is left. Thread: any. */
 enum status part_put(struct part *p, size_t unit, const void *bytes, size_t n,
                      const struct report *r);
+
+/* Bytes of a unit in place of what *bytes held; checks the checksum. For many units one after the
+ * other: their room is used again, where part_get keeps the whole file in memory. Thread: any.
+ * Errors: ST_INPUT (not there, damaged), ST_RESOURCE. */
+enum status part_read(struct part *p, size_t unit, struct text *bytes, const struct report *r);
+
+/* The last n bytes of a unit, which nothing checks: who uses them reads the unit, too, before it
+ * believes them. Thread: any. Errors: ST_INPUT (not there, shorter). */
+enum status part_read_end(struct part *p, size_t unit, void *to, size_t n, const struct report *r);
 
 /* Bytes of a unit, valid until the part is closed; checks the checksum. Thread: any.
  * Errors: ST_INPUT (not there), ST_RESOURCE. */

@@ -64,6 +64,16 @@ static void expect_unit(struct part *p, size_t unit)
 	assert_int_equal(part_get(p, unit, &bytes, &n, NULL), ST_OK);
 	assert_int_equal(n, n_expected);
 	assert_memory_equal(bytes, expected, n);
+	struct text room = { 0 };
+	text_add(&room, "of another unit");
+	assert_int_equal(part_read(p, unit, &room, NULL), ST_OK);
+	assert_int_equal(room.n, n_expected);
+	assert_memory_equal(room.s, expected, n_expected);
+	text_finish(&room);
+	char end[37];
+	assert_int_equal(part_read_end(p, unit, end, sizeof end, NULL), unit ? ST_OK : ST_INPUT);
+	if (unit)
+		assert_memory_equal(end, expected + n_expected - sizeof end, sizeof end);
 }
 
 static struct part *open_part(const char *at)
@@ -98,6 +108,10 @@ static void test_there_and_back(void **state)
 	assert_int_equal(part_count(p), 0);
 	assert_int_equal(part_get(p, 3, &bytes, &n, NULL), ST_INPUT);
 	assert_int_equal(part_get(p, UNITS, &bytes, &n, NULL), ST_INPUT);
+	struct text room = { 0 };
+	assert_int_equal(part_read(p, 3, &room, NULL), ST_INPUT);
+	assert_int_equal(part_read_end(p, UNITS, &room, 0, NULL), ST_INPUT);
+	text_finish(&room);
 	assert_int_equal(put(p, 3), ST_OK);
 	assert_int_equal(put(p, 3), ST_OK); /* again: left as it is */
 	assert_int_equal(part_put(p, UNITS, "x", 1, NULL), ST_INTERNAL);
@@ -298,6 +312,9 @@ static void test_damage_while_open(void **state)
 	assert_int_equal(pwrite(fd, "\377\377", 2, size_of(path) - 2), 2);
 	close(fd);
 	report_store_init(&said);
+	struct text room = { 0 };
+	assert_int_equal(part_read(p, 5, &room, &report_none), ST_INPUT);
+	text_finish(&room);
 	assert_int_equal(part_get(p, 5, &bytes, &n, &said.report), ST_INPUT);
 	assert_non_null(strstr(said.error, "damaged"));
 	part_close(p);
