@@ -130,6 +130,23 @@ static enum status fill_in(const struct routine *t, const struct argument_row *r
 	return st;
 }
 
+/* A picture that was not told a view is made from where the window looks when it begins; the journal says
+ * from where, so that it is the same picture again. In the room that full has for all rows. */
+static void fill_in_camera(struct arguments *full, char room[CAMERA_TEXT_SIZE],
+                           const struct world *w)
+{
+	const struct sight *s = world_sight((struct world *)w);
+
+	if (argument_text(full, "view"))
+		return;
+	if (s->has_camera)
+		camera_write(room, &s->camera);
+	else
+		strcpy(room, "three-quarter");
+	full->name[full->n] = "view";
+	full->value[full->n++] = room;
+}
+
 static enum status call_with_rows(const struct routine *t, struct act *a,
                                   const struct argument_row *rows, const struct arguments *given)
 {
@@ -138,12 +155,15 @@ static enum status call_with_rows(const struct routine *t, struct act *a,
 		n++;
 	struct arguments full = { calloc(n + 1, sizeof *full.name),
 		                  calloc(n + 1, sizeof *full.value), 0 };
+	char camera[CAMERA_TEXT_SIZE];
 	enum status st = full.name && full.value ? ST_OK : act_memory(a);
 
 	if (st == ST_OK)
 		st = check_names(t, rows, given, &a->report);
 	if (st == ST_OK)
 		st = fill_in(t, rows, given, &full, a);
+	if (st == ST_OK && t->run == files_picture)
+		fill_in_camera(&full, camera, a->world);
 	if (st == ST_OK) {
 		a->routine = t;
 		a->n_jobs = 0;

@@ -127,15 +127,22 @@ enum status camera_fit(struct camera *out, const char *view, const struct box *b
 	struct view v = { .angle = 30, .kind = CAMERA_ORTHOGRAPHIC };
 	if (!view || !*view)
 		view = named_views[0].name;
-	if (!parse_view(&v, view))
+	const bool exact = camera_is_text(view);
+	if (exact ? !camera_parse(out, view) : !parse_view(&v, view))
 		return report_error(r, ST_PARAMETER,
 		                    "view '%s': expected three-quarter, front, back, left, right, "
 		                    "top, bottom or AZIMUTH,ELEVATION in degrees (elevation -90 to "
-		                    "90), then :orthographic or :perspective@ANGLE (1 to 150)",
+		                    "90), then :orthographic or :perspective@ANGLE (1 to 150); or "
+		                    "a camera as the journal writes it",
 		                    view);
 	if (width < 1 || height < 1)
 		return report_error(r, ST_PARAMETER, "size %dx%d: expected 1x1 or more", width,
 		                    height);
+	if (exact) {
+		out->width = width;
+		out->height = height;
+		return ST_OK;
+	}
 	if (box_is_empty(box))
 		return report_error(r, ST_INPUT, "cannot place a camera: there is nothing to see");
 	*out = (struct camera){
@@ -219,7 +226,7 @@ enum status camera_fit_surfaces(struct camera *out, const char *view,
 	if (st != ST_OK)
 		return report_error(r, st, "cannot place a camera: memory ran out");
 	st = camera_fit(out, view, &box, width, height, r);
-	if (st != ST_OK)
+	if (st != ST_OK || (view && camera_is_text(view)))
 		return st;
 	double wide = (1 - 2 * margin) * width / smaller_side(out);
 	double high = (1 - 2 * margin) * height / smaller_side(out), size = box_diagonal(&box);

@@ -23,7 +23,7 @@ struct camera {
  * in degrees (azimuth from +x to +y of where the eye stands, elevation -90 to 90), optionally
  * followed by :orthographic (default) or :perspective, and that by @ANGLE in degrees, of the smaller
  * side (default 30). front stands at -y, right at +x; top and bottom have +x to the right. The whole
- * box is before the eye. view NULL or "" is the default.
+ * box is before the eye. view NULL or "" is the default. What camera_write gives is taken as it is.
  * Errors: ST_PARAMETER with what is allowed; ST_INPUT for an empty box.
  */
 enum status camera_fit(struct camera *out, const char *view, const struct box *box, int width,
@@ -37,6 +37,13 @@ enum status camera_fit(struct camera *out, const char *view, const struct box *b
 enum status camera_fit_surfaces(struct camera *out, const char *view,
                                 const struct surface *const *surfaces, int n, int width, int height,
                                 const struct report *r);
+
+/* A camera as it is, but for width and height, as camera_fit takes it: "camera:", then eye, right, up,
+ * ahead and half by comma, then :orthographic or :perspective. What is read is what was written. */
+enum { CAMERA_TEXT_SIZE = 13 * 32 + 32 };
+void camera_write(char out[CAMERA_TEXT_SIZE], const struct camera *c);
+bool camera_is_text(const char *view);
+bool camera_parse(struct camera *out, const char *text); /* width and height become 0 */
 
 /* Ray through image point (x, y) in pixels, (0, 0) the upper left corner of the upper left pixel.
  * direction is of unit length; its length along the ray is not the depth of a perspective camera. */

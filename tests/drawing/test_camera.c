@@ -229,13 +229,57 @@ static void test_refused(void **state)
 	assert_int_equal(camera_fit(&c, "", &hull, 64, 64, NULL), ST_OK);
 }
 
+/* A camera written is the same camera read, whatever is to be seen; only the size is the caller's. */
+static void test_written(void **state)
+{
+	static const char *const wrong[] = {
+		"camera:",
+		"camera:1,2,3,1,0,0,0,1,0,0,0,-1,2",
+		"camera:1,2,3,1,0,0,0,1,0,0,0,-1,2:wide",
+		"camera:1,2,3,1,0,0,0,1,0,0,0,-1,0:perspective",
+		"camera:1,2,3,1,0,0,0,1,0,0,0,1,2:perspective",
+		"camera:1,2,3,1,0,0,0,2,0,0,0,-1,2:perspective",
+		"camera:1e999,2,3,1,0,0,0,1,0,0,0,-1,2:perspective",
+		"camera:1,2,3,1,0,0,0,1,0,0,0,-1,2,7:perspective",
+		"camera:1,2,3,1,0,0,0,1,0,0,0,-1,2:perspective ",
+	};
+	char text[CAMERA_TEXT_SIZE], again[CAMERA_TEXT_SIZE];
+	struct surface ball;
+	const struct surface *one = &ball;
+	struct camera c, d;
+
+	(void)state;
+	assert_int_equal(make_sphere(&ball, vec3(1, 2, 3), 5), ST_OK);
+	for (int i = 0; i < N_VIEWS; i++) {
+		assert_int_equal(camera_fit(&c, views[i], &hull, 640, 480, NULL), ST_OK);
+		c.eye = vec3_along(c.eye, 1.0 / 3, c.up);
+		camera_write(text, &c);
+		assert_true(strlen(text) < CAMERA_TEXT_SIZE);
+		assert_int_equal(camera_fit_surfaces(&d, text, &one, 1, 300, 700, NULL), ST_OK);
+		camera_write(again, &d);
+		assert_string_equal(text, again);
+		assert_memory_equal(&c.eye, &d.eye, sizeof c.eye);
+		assert_memory_equal(&c.ahead, &d.ahead, sizeof c.ahead);
+		assert_true(c.half == d.half && c.kind == d.kind);
+		assert_int_equal(d.width, 300);
+		assert_int_equal(d.height, 700);
+	}
+	surface_finish(&ball);
+	for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+		assert_int_equal(camera_fit(&d, wrong[i], &hull, 640, 480, NULL), ST_PARAMETER);
+	assert_int_equal(camera_fit(&d, "camera:1,2,3,1,0,0,0,1,0,0,0,-1,2:perspective", &hull, 640,
+	                            480, NULL),
+	                 ST_OK);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_fit),  cmocka_unit_test(test_fit_surfaces),
-		cmocka_unit_test(test_axes), cmocka_unit_test(test_named),
-		cmocka_unit_test(test_rays), cmocka_unit_test(test_behind),
-		cmocka_unit_test(test_thin), cmocka_unit_test(test_refused),
+		cmocka_unit_test(test_fit),     cmocka_unit_test(test_fit_surfaces),
+		cmocka_unit_test(test_axes),    cmocka_unit_test(test_named),
+		cmocka_unit_test(test_rays),    cmocka_unit_test(test_behind),
+		cmocka_unit_test(test_thin),    cmocka_unit_test(test_refused),
+		cmocka_unit_test(test_written),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,13 +72,13 @@ static bool port_pick(void *data, const struct view_state *v, double x, double y
 
 /* ------------------------------------------------------------ set up */
 
-int stand_set_up(void **state)
+int stand_set_up_drawing(void **state, errand_picture *picture)
 {
 	struct stand *s = calloc(1, sizeof *s);
 	struct desk_ports ports = { .pick = port_pick,
 		                    .ask_jobs = port_ask,
 		                    .start = port_start,
-		                    .picture = stand_picture,
+		                    .picture = picture,
 		                    .bell = port_bell,
 		                    .close = port_close,
 		                    .data = s };
@@ -96,6 +96,11 @@ int stand_set_up(void **state)
 	s->paper = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, 1280, 800);
 	desk_tick(s->desk, 1000);
 	return 0;
+}
+
+int stand_set_up(void **state)
+{
+	return stand_set_up_drawing(state, stand_picture);
 }
 
 int stand_tear_down(void **state)

@@ -24,6 +24,8 @@ struct stand {
 /* cmocka's set up and tear down; *state is the stand. */
 int stand_set_up(void **state);
 int stand_tear_down(void **state);
+int stand_set_up_drawing(void **state,
+                         errand_picture *picture); /* with an EXPORT PICTURE of its own */
 /* A bent plate of 4 x 4 points; its id. */
 int stand_add_plate(struct stand *s, const char *name);
 

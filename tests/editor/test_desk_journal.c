@@ -85,6 +85,13 @@ static const char *const steps[] = {
 	"V174 grid=16x12",
 	"V99 on=no",
 	"V99 on=yes",
+	"V59 view=-20,30:perspective@40",
+	"drag",
+	"V179 to=dragged.png size=320x200",
+	"V179 to=lines.svg size=320x200",
+	"V179 to=back.png size=320x200 view=back",
+	"drag",
+	"V179 to=again.png size=320x200",
 	"V71",
 	"V76 size=32x24 samples=1",
 	"V79",
@@ -130,7 +137,8 @@ static const char *const steps[] = {
 	"V180 name=renamed",
 	"V176",
 	"V177 name=mine",
-	"V179 to=picture.png",
+	"V179 to=picture.png size=320x200",
+	"drag", /* no leaf says where the window looks now */
 	"V178 entities=all to=final.base",
 	"V133",
 };
@@ -249,6 +257,33 @@ static char *find_file(struct stand *s, const char *value)
 	return out ? out : strdup(value);
 }
 
+/* The view is turned by hand. */
+static void drag(struct stand *s)
+{
+	const struct vec3 before = world_sight(s->world)->camera.eye;
+	int n;
+	const struct desk_tile *t = desk_tiles(s->desk, &n);
+
+	desk_move(s->desk, t[0].box.x + 100, t[0].box.y + 150);
+	desk_press(s->desk, BUTTON_LEFT, 0);
+	desk_move(s->desk, t[0].box.x + 163, t[0].box.y + 127);
+	desk_release(s->desk, BUTTON_LEFT);
+	stand_paint(s);
+	assert_memory_not_equal(&before, &world_sight(s->world)->camera.eye, sizeof before);
+}
+
+/* As the window draws it. */
+static enum status draw_picture(const struct world *w, const char *path, const char *view,
+                                int width, int height, const struct report *r)
+{
+	return render_picture(w, path, view, width, height, THEME_LIGHT, r);
+}
+
+static int set_up(void **state)
+{
+	return stand_set_up_drawing(state, draw_picture);
+}
+
 static void choose(struct stand *s, const char *step)
 {
 	char *copy = strdup(step), *rest = copy, *code = strsep(&rest, " "), *pair;
@@ -347,7 +382,22 @@ static char *read_text(const char *folder, const char *name)
 	return text;
 }
 
-/* All files but pictures, which are not drawn here. How many. */
+static bool same_file(const char *folder, const char *a, const char *b)
+{
+	size_t n[2];
+	char *path[2] = { path_join(folder, a), path_join(folder, b) }, *bytes[2];
+
+	for (int k = 0; k < 2; k++)
+		assert_int_equal(file_read(path[k], 1 << 26, &bytes[k], &n[k], NULL), ST_OK);
+	const bool same = n[0] == n[1] && !memcmp(bytes[0], bytes[1], n[0]);
+	for (int k = 0; k < 2; k++) {
+		free(path[k]);
+		free(bytes[k]);
+	}
+	return same;
+}
+
+/* All files, pictures too, to the byte. How many. */
 static int same_files(const char *a, const char *b)
 {
 	DIR *d = opendir(a);
@@ -357,7 +407,7 @@ static int same_files(const char *a, const char *b)
 	while ((e = readdir(d))) {
 		char *here, *there, *text[2];
 		size_t size[2];
-		if (e->d_name[0] == '.' || path_has_suffix(e->d_name, ".png"))
+		if (e->d_name[0] == '.')
 			continue;
 		here = path_join(a, e->d_name);
 		there = path_join(b, e->d_name);
@@ -415,12 +465,18 @@ static void every_leaf_is_in_the_journal_and_done_again(void **state)
 		if (!strcmp(steps[k], "V163") || !strcmp(steps[k], "V164") ||
 		    !strcmp(steps[k], "V165"))
 			steer_a_job(s, steps[k]);
+		else if (!strcmp(steps[k], "drag"))
+			drag(s);
 		else if (strcmp(steps[k], "V133"))
 			choose(s, steps[k]);
 	}
 	stand_leaf(s, "V133");
 	stand_type(s, "l");
 	assert_true(s->closed);
+
+	/* from where they are seen can be told from the pictures */
+	assert_false(same_file(s->folder, "dragged.png", "back.png"));
+	assert_false(same_file(s->folder, "dragged.png", "again.png"));
 
 	char *journal = read_text(s->folder, ".batten/journal");
 	for (const struct routine *t = routine_table; t->code; t++) {
@@ -450,7 +506,7 @@ static void every_leaf_is_in_the_journal_and_done_again(void **state)
 		         .project = &project,
 		         .report = said.report,
 		         .wait = true,
-		         .picture = stand_picture };
+		         .picture = draw_picture };
 	if (script_run(&a, path, false, &failed) != ST_OK)
 		fail_msg("%s", said.error);
 	char *here = session_of(s->world, s->folder), *there = session_of(w, twice);
@@ -471,8 +527,8 @@ static void every_leaf_is_in_the_journal_and_done_again(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test_setup_teardown(every_leaf_is_in_the_journal_and_done_again,
-		                                stand_set_up, stand_tear_down),
+		cmocka_unit_test_setup_teardown(every_leaf_is_in_the_journal_and_done_again, set_up,
+		                                stand_tear_down),
 	};
 
 	return cmocka_run_group_tests(tests, NULL, NULL);
