@@ -124,13 +124,14 @@ static const char *form_title(const struct desk *d, struct scraps *s)
 	const struct routine *t = d->ask.routine;
 	const char *name = d->ask.entry ? d->ask.entry->name : "";
 	const char *need = t->needs ? t->needs : "";
-	const bool scene =
-	        t->worker && strcmp(t->worker, "curvature") && strcmp(t->worker, "isophotes");
+	const int which = desk_ask_find(d, "surfaces");
+	const bool scene = which >= 0 ? !strcmp(d->ask.field[which].s, "shown")
+	                              : t->worker && strcmp(t->worker, "curvature");
 	const struct Ful *f = NULL;
 
 	if (scene && count_shown(d) > 1)
 		return scraps_print(s, "%s of %d surfaces", name, count_shown(d));
-	if (desk_ask_find(d, "surfaces") >= 0 || d->errand)
+	if (d->errand)
 		return name;
 	if (!strcmp(need, "surface") || strstr(need, "curve"))
 		f = world_current(d->world, strstr(need, "curve") != NULL);

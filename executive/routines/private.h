@@ -27,7 +27,7 @@ void opened_say(struct act *a, const char *file, int before);
 /* Relative to the project's folder; fresh. */
 char *act_path(const struct act *a, const char *name);
 
-/* A job's parameters: those of `given`, without wait; the object is the caller's. */
+/* A job's parameters: those of `given`, without wait and surfaces; the object is the caller's. */
 json_t *work_parameters(const struct arguments *given);
 
 /* What came of jobs. */

@@ -7,11 +7,43 @@
 #include "private.h"
 #include "text.h"
 
-/* A worker on all surfaces shown; its result belongs to the one there is, or to none. */
+/* The surfaces that a leaf is for: the current one, or, where it does not ask, each that is shown. 0, with a sentence: none. */
+static int meant(struct act *a, const struct arguments *given, int **ids)
+{
+	const char *which = argument_text(given, "surfaces");
+	const struct Ful *f;
+
+	if (!which || !strcmp(which, "shown"))
+		return work_scene(a, ids);
+	f = act_current(a, false);
+	*ids = f ? malloc(sizeof **ids) : NULL;
+	if (f && !*ids)
+		act_memory(a);
+	if (!*ids)
+		return 0;
+	**ids = f->id;
+	return 1;
+}
+
+/* Those of each alone, where they take their place as one scene. */
+static void hide_isophotes(struct world *w, const int *ids, int n)
+{
+	for (int k = world_overlays(w) - 1; k >= 0; k--) {
+		const struct overlay *o = world_overlay(w, k);
+		bool among = false;
+		for (int i = 0; i < n; i++)
+			among |= o->thing == ids[i];
+		if (among && o->kind == OVERLAY_LINES && o->file &&
+		    path_has_suffix(o->file, ".isophote"))
+			world_hide(w, OVERLAY_LINES, o->thing);
+	}
+}
+
+/* A worker on surfaces as one scene; its result belongs to the one there is, or to none. */
 static enum status run_scene(struct act *a, const struct arguments *given, const char *suffix,
                              const struct overlay *like)
 {
-	int *ids, n = work_scene(a, &ids);
+	int *ids, n = meant(a, given, &ids);
 	json_t *parameters = work_parameters(given);
 	struct work_done done;
 	enum status st = n ? work_run(a, a->routine->worker, parameters, ids, n, suffix, &done)
@@ -19,6 +51,8 @@ static enum status run_scene(struct act *a, const struct arguments *given, const
 
 	if (st == ST_OK) {
 		const int thing = like->kind == OVERLAY_IMAGE || n > 1 ? 0 : ids[0];
+		if (!thing && !strcmp(a->routine->worker, "isophotes"))
+			hide_isophotes(a->world, ids, n);
 		st = work_show(a, &done.job, thing, like);
 		work_done_finish(&done);
 	}
@@ -38,24 +72,6 @@ enum status job_contours(struct act *a, const struct arguments *given)
 	                 &(struct overlay){ .kind = OVERLAY_LINES });
 }
 
-/* The surfaces that a leaf is for: the current one, or each that is shown. 0, with a sentence: none. */
-static int meant(struct act *a, const struct arguments *given, int **ids)
-{
-	const char *which = argument_text(given, "surfaces");
-	const struct Ful *f;
-
-	if (which && !strcmp(which, "shown"))
-		return work_scene(a, ids);
-	f = act_current(a, false);
-	*ids = f ? malloc(sizeof **ids) : NULL;
-	if (f && !*ids)
-		act_memory(a);
-	if (!*ids)
-		return 0;
-	**ids = f->id;
-	return 1;
-}
-
 /* A worker on one surface. */
 static enum status run_one(struct act *a, json_t *parameters, const char *worker, int id,
                            const struct overlay *like)
@@ -70,18 +86,6 @@ static enum status run_one(struct act *a, json_t *parameters, const char *worker
 	return st;
 }
 
-/* Likewise on the current one. */
-static enum status run_current(struct act *a, const struct arguments *given,
-                               const struct overlay *like)
-{
-	const struct Ful *f = act_current(a, false);
-	json_t *parameters = work_parameters(given);
-	enum status st = f ? run_one(a, parameters, a->routine->worker, f->id, like) : ST_PARAMETER;
-
-	json_decref(parameters);
-	return st;
-}
-
 static enum status look_at_map(struct act *a, int id)
 {
 	struct display d = world_by_id(a->world, id)->display;
@@ -93,17 +97,18 @@ static enum status look_at_map(struct act *a, int id)
 
 enum status job_lines(struct act *a, const struct arguments *given)
 {
-	const struct overlay like = { .kind = OVERLAY_LINES };
-
-	return strcmp(a->routine->worker, "reflection") ? run_current(a, given, &like)
-	                                                : run_scene(a, given, NULL, &like);
+	return run_scene(a, given, NULL, &(struct overlay){ .kind = OVERLAY_LINES });
 }
 
 enum status job_curvature(struct act *a, const struct arguments *given)
 {
 	const struct overlay like = { .kind = OVERLAY_MAP, .scale = COLORMAP_AUTOMATIC };
-	enum status st = run_current(a, given, &like);
+	const struct Ful *f = act_current(a, false);
+	json_t *parameters = work_parameters(given);
+	enum status st =
+	        f ? run_one(a, parameters, a->routine->worker, f->id, &like) : ST_PARAMETER;
 
+	json_decref(parameters);
 	if (st != ST_OK)
 		return st;
 	world_sight(a->world)->all_curvatures = true;
@@ -253,26 +258,40 @@ static bool has_result(const struct act *a, int id, const char *suffix)
 	return there;
 }
 
-/* Of several surfaces those that have some. */
+static bool is_of_scene(const struct act *a, const int *ids, int n)
+{
+	char hash[33], *path = work_name(a, ids, n, ".isophote");
+	const bool is = path && path_exists(path) && work_hash(a->world, ids, n, hash) == ST_OK &&
+	                work_is_current(path, "isophotes", hash, NULL);
+
+	free(path);
+	return is;
+}
+
+/* Of several surfaces those of them as one scene, else of those that have some alone. */
 static enum status show_isophotes(struct act *a, const struct arguments *given, const int *ids,
                                   int n)
 {
 	enum status st = ST_OK;
 	int some = 0;
 
+	if (n > 1)
+		hide_isophotes(a->world, ids, n);
+	if (n == 1 || !argument_yes(given, "on", true) || is_of_scene(a, ids, n))
+		return show_result(a, given, ids, n, ".isophote", "isophotes", "V90");
 	for (int k = 0; k < n && st == ST_OK; k++)
 		if (has_result(a, ids[k], ".isophote")) {
 			st = show_result(a, given, &ids[k], 1, ".isophote", "isophotes", "V90");
 			some++;
 		}
 	return some || st != ST_OK ? st
-	                           : show_result(a, given, ids, 1, ".isophote", "isophotes", "V90");
+	                           : show_result(a, given, ids, n, ".isophote", "isophotes", "V90");
 }
 
 enum status surface_show_lines(struct act *a, const struct arguments *given)
 {
 	const bool reflection = a->routine->detail;
-	int *ids, n = reflection ? work_scene(a, &ids) : meant(a, given, &ids);
+	int *ids, n = meant(a, given, &ids);
 	enum status st = n ? ST_OK : ST_PARAMETER;
 
 	if (n && reflection)
@@ -286,7 +305,7 @@ enum status surface_show_lines(struct act *a, const struct arguments *given)
 enum status contours_show(struct act *a, const struct arguments *given)
 {
 	const bool cylinders = a->routine->detail;
-	int *ids, n = work_scene(a, &ids);
+	int *ids, n = meant(a, given, &ids);
 
 	enum status st = show_result(a, given, ids, n, cylinders ? ".cylinder.contour" : ".contour",
 	                             "contours", cylinders ? "V170" : "V168");

@@ -17,7 +17,7 @@ json_t *work_parameters(const struct arguments *given)
 	json_t *o = json_object();
 
 	for (int k = 0; k < given->n; k++)
-		if (strcmp(given->name[k], "wait"))
+		if (strcmp(given->name[k], "wait") && strcmp(given->name[k], "surfaces"))
 			json_set_text(o, given->name[k], given->value[k]);
 	return o;
 }

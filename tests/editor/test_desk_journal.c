@@ -96,6 +96,7 @@ static const char *const steps[] = {
 	"V76 size=32x24 samples=1",
 	"V79",
 	"V90",
+	"V90 surfaces=current",
 	"V94",
 	"V168",
 	"V170",

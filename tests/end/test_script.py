@@ -41,6 +41,25 @@ def test_maps_and_lines(project):
     assert read(project, "verb.isophote") == read(project, "wigley-1.isophote")
 
 
+def test_isophotes_of_a_scene(project):
+    """Of the current surface where a script does not say; of all shown as one, whose curves go over the border."""
+    start(project)
+    opened = ["V175 file=wigley.base", "V88 count=3 from=20 to=80"]
+    done = script(project, *opened, "V90 surfaces=shown", "V91 surfaces=shown", "V159 surface=wigley-1", "V90")
+    jobs = [j for j in project.jobs().values() if j["worker"] == "isophotes"]
+    assert [len(j["inputs"]) for j in jobs] == [2, 1], jobs
+    assert "wigley.isophote" in done.stdout and "wigley-1.isophote" in done.stdout, done.stdout
+    project.run("batten", "run", "isophotes", "wigley.base", "--count", "3", "--from", "20", "--to", "80", "-o", "verb")
+    assert read(project, "verb.isophote") == read(project, "wigley.isophote")
+    script(project, *opened, "V91 surfaces=shown", "V91 surfaces=shown on=no", "V91 surfaces=current")
+    script(project, *opened, "V159 surface=wigley-2", "V94 surfaces=current", "V95 surfaces=current",
+           "V168 surfaces=current", "V169 surfaces=current")
+    last = list(project.jobs().values())[-2:]
+    assert [len(j["inputs"]) for j in last] == [1, 1], last
+    # what is there is of one of them alone
+    script(project, "V175 file=wigley.base", "V127 index=1,1 to=1,0.1,0.2", "V91 surfaces=shown")
+
+
 def test_missing_map_is_computed(project):
     """V80 alone starts the worker; after an edit, again, on geometry that lies in no file."""
     start(project, "sphere.base")
@@ -151,7 +170,7 @@ def test_routines(project):
         told = [a["name"] for a in project.json("batten", "help", code)["help"][0]["arguments"]]
         assert sorted(told) == sorted(a["name"] for a in leaves[code]["arguments"]), code
     workers = {w["name"]: w for w in project.json("batten", "workers")["workers"]}
-    names = [a["name"] for a in leaves["V90"]["arguments"][:-1]]
+    names = [a["name"] for a in leaves["V90"]["arguments"][:-2]]
     assert names == [p["name"] for p in workers["isophotes"]["parameters"]], names
     table = project.run("batten", "routines").stdout
     assert "V79  job      MAIN > " in table and "(later)" in table
