@@ -351,7 +351,7 @@ static enum status curvature_finish(struct work *w)
 const struct worker worker = {
 	.name = "curvature",
 	.title = "curvature map",
-	.version = 4,
+	.version = 5,
 	.help = "Gaussian, mean, absolute, principal and normal curvatures of a surface on a grid of its "
 	        "parameters: image x is u, image y is v with v upward, both ends of the domain "
 	        "included. With --view also as seen from a camera.",

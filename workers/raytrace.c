@@ -262,7 +262,7 @@ static enum status raytrace_finish(struct work *w)
 const struct worker worker = {
 	.name = "raytrace",
 	.title = "ray traced image",
-	.version = 3,
+	.version = 4,
 	.help = "The surfaces themselves ray traced, no triangles: shadows, mirrors, and light "
 	        "stripes that show where a surface is not fair.",
 	.scene = true,

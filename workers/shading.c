@@ -283,7 +283,7 @@ static enum status shading_finish(struct work *w)
 const struct worker worker = {
 	.name = "shading",
 	.title = "shaded image",
-	.version = 3,
+	.version = 4,
 	.help = "The surfaces seen from a camera with one light: color, depth, exact normals and "
 	        "points of every pixel.",
 	.scene = true,

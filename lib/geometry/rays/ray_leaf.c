@@ -16,6 +16,13 @@ static const double bend_limit = 0.12;
 /* A straight net may still twist: of a hyperbolic paraboloid every row is straight. */
 static const double twist_limit = 0.12;
 
+/*
+ * Along the edge of a blade leaves are narrow, and one that bends little for its length still moves
+ * aside by many of its widths; the iteration ends as far from it and says nothing, and the leaf would
+ * be quartered for each ray. Bend times length over width at most; a quarter of it is the way aside.
+ */
+static const double aside_limit = 8;
+
 /* A bicubic may stand for a leaf of higher degree when it is nearer than this part of its size:
  * the iteration starts there and the finish runs on the true surface. */
 static const double fit_limit = 3e-4;
@@ -209,6 +216,9 @@ static int cut_direction(const struct bicubic *b, const int depth[2])
 		int longer = length[1] > length[0];
 
 		if (bicubic_twist(net, longest) > twist_limit && can[longer])
+			return longer;
+		double width = fmax(length[1 - longer], 10 * (double)RAY_NOISE);
+		if (bend[longer] * longest > aside_limit * width && can[longer])
 			return longer;
 		return -1;
 	}
