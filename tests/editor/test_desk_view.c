@@ -238,6 +238,55 @@ static void what_is_shown_is_told(void **state)
 	}
 }
 
+static cairo_surface_t *paper(cairo_t **cr)
+{
+	cairo_surface_t *out = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, 1280, 800);
+
+	*cr = cairo_create(out);
+	return out;
+}
+
+/* What lies over the view is that heading, and nothing else. */
+static bool is_headed(struct stand *s, const char *title, const char *note)
+{
+	const struct look look = { .theme = THEME_DARK, .scale = 1 };
+	cairo_t *cr[2];
+	cairo_surface_t *p[2] = { paper(&cr[0]), paper(&cr[1]) };
+	int n;
+
+	stand_paint(s);
+	desk_paint(s->desk, PART_OVER, cr[0]);
+	panel_heading(cr[1], &desk_tiles(s->desk, &n)[0].box, title, note, true, &look);
+	for (int k = 0; k < 2; k++) {
+		cairo_destroy(cr[k]);
+		cairo_surface_flush(p[k]);
+	}
+	const size_t size = (size_t)cairo_image_surface_get_stride(p[0]) * 800;
+	const bool same = !memcmp(cairo_image_surface_get_data(p[0]),
+	                          cairo_image_surface_get_data(p[1]), size);
+	for (int k = 0; k < 2; k++)
+		cairo_surface_destroy(p[k]);
+	return same;
+}
+
+static void an_image_is_headed_by_its_file(void **state)
+{
+	struct stand *s = *state;
+	struct overlay o = { .kind = OVERLAY_IMAGE, .file = (char *)"/hulls/lid.shade.exr" };
+
+	stand_add_plate(s, "plate");
+	stand_key(s, KEY_HOME);
+	assert_true(is_headed(s, "plate", ""));
+	assert_int_equal(world_show(s->world, &o), ST_OK);
+	assert_true(is_headed(s, "Image", "lid.shade.exr"));
+	assert_false(is_headed(s, "plate", ""));
+	o.job = 5;
+	assert_int_equal(world_show(s->world, &o), ST_OK);
+	assert_true(is_headed(s, "Image", "arriving from job 5"));
+	world_hide(s->world, OVERLAY_IMAGE, 0);
+	assert_true(is_headed(s, "plate", ""));
+}
+
 static void a_color_is_seen_while_it_is_chosen(void **state)
 {
 	struct stand *s = *state;
@@ -409,6 +458,7 @@ int main(void)
 		TEST(the_plane_of_parameters_is_a_view),
 		TEST(the_probe_is_kept_as_a_mark),
 		TEST(the_light_is_dragged_live_and_taken_back),
+		TEST(an_image_is_headed_by_its_file),
 		TEST(what_is_shown_is_told),
 		TEST(a_color_is_seen_while_it_is_chosen),
 		TEST(a_drag_of_a_point_is_one_step),

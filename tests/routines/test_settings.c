@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -223,6 +225,37 @@ static void test_results(void **state)
 	assert_int_equal(world_overlay(a->place.world, 0)->kind, OVERLAY_LINES);
 }
 
+/* What cannot be read is told by its name: a folder, a link to nothing, no permission. */
+static void test_unreadable(void **state)
+{
+	static const char *const lines[] = { "V175 file=%s.igs",      "V175 file=%s.base",
+		                             "V70 file=%s.shade.exr", "V75 file=%s.trace.exr",
+		                             "V78 file=%s.map.exr",   "V89 file=%s.isophote",
+		                             "V93 file=%s.reflect" };
+	static const char *const kinds[] = { "folder", "dangling", "locked" };
+	struct acting *a = *state;
+	const int n = world_count(a->place.world);
+
+	for (size_t k = 0; k < sizeof lines / sizeof *lines; k++)
+		for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+			char line[64];
+			snprintf(line, sizeof line, lines[k], kinds[i]);
+			char *path = path_join(a->place.folder, strchr(line, '=') + 1);
+			if (i == 0)
+				assert_int_equal(mkdir(path, 0777), 0);
+			else if (i == 1)
+				assert_int_equal(symlink("nothing", path), 0);
+			else
+				assert_int_equal(file_write(path, "x", 1, NULL), ST_OK);
+			/* who may read everything finds that it is nothing */
+			assert_int_equal(i == 2 ? chmod(path, 0) : 0, 0);
+			acting_fails(a, line, ST_INPUT, kinds[i]);
+			free(path);
+		}
+	assert_int_equal(world_count(a->place.world), n);
+	assert_int_equal(world_overlays(a->place.world), 0);
+}
+
 /* The record of a job takes the place of what was shown while it ran. */
 static void test_job_ended(void **state)
 {
@@ -269,6 +302,7 @@ int main(void)
 		cmocka_unit_test_setup_teardown(test_table, open_both, acting_teardown),
 		cmocka_unit_test_setup_teardown(test_graph, open_both, acting_teardown),
 		cmocka_unit_test_setup_teardown(test_results, open_both, acting_teardown),
+		cmocka_unit_test_setup_teardown(test_unreadable, open_both, acting_teardown),
 		cmocka_unit_test_setup_teardown(test_job_ended, open_both, acting_teardown),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
