@@ -1,6 +1,5 @@
 /* test_desk_journal.c - every leaf that can be run, chosen at the desk: the journal of it, done elsewhere by
  * `batten script`, gives the same files, and done by the routines the same world. */
-#include <dirent.h>
 #include <glob.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,13 +11,11 @@
 
 #include <cmocka.h>
 
-#include "base.h"
 #include "client.h"
-#include "construct.h"
 #include "desk_stand.h"
 #include "file.h"
+#include "journal_folders.h"
 #include "json.h"
-#include "model_write.h"
 #include "open.h"
 #include "path.h"
 #include "text.h"
@@ -309,123 +306,7 @@ static void choose(struct stand *s, const char *step)
 	free(copy);
 }
 
-/* ------------------------------------------------------------ folders */
-
-/* A plane of which a triangle is left. */
-static void write_trimmed(const char *folder)
-{
-	static const double corner[4][2] = { { 1, 1 }, { 5, 1 }, { 3, 1.8 }, { 1, 1 } };
-	struct trim_loop loop = { .outer = true };
-	struct model m;
-	struct entity e;
-	struct curve c;
-
-	model_init(&m);
-	m.unit_in_mm = 1000;
-	assert_int_equal(model_set_text(&m.unit, "m"), ST_OK);
-	entity_init(&e, ENTITY_SURFACE);
-	assert_int_equal(make_sphere(&e.geometry, vec3(0, 0, 0), 2), ST_OK);
-	for (int k = 0; k < 3; k++) {
-		assert_int_equal(make_line(&c, vec3(corner[k][0], corner[k][1] - 1, 0),
-		                           vec3(corner[k + 1][0], corner[k + 1][1] - 1, 0)),
-		                 ST_OK);
-		assert_int_equal(trim_loop_add(&loop, &c), ST_OK);
-	}
-	assert_int_equal(trim_add(&e.trim, &loop), ST_OK);
-	assert_int_equal(model_add(&m, &e), ST_OK);
-	model_number(&m);
-	char *path = path_join(folder, "trimmed.igs");
-	assert_int_equal(model_write(&m, model_format_find(path, NULL), path,
-	                             &(struct mesh_wishes){ .angle = 15 },
-	                             &(struct mesh_figures){ 0 }, NULL),
-	                 ST_OK);
-	free(path);
-	model_finish(&m);
-}
-
-static void write_inputs(const char *folder)
-{
-	const struct place p = { .folder = (char *)(size_t)folder };
-	struct model m;
-	struct entity e;
-	char *path;
-
-	place_spheres(&p, "spheres.base", 2);
-	place_spheres(&p, "ball.base", 1);
-	place_diagonal(&p, "diagonal.base");
-	model_init(&m);
-	m.unit_in_mm = 1000;
-	assert_int_equal(model_set_text(&m.unit, "m"), ST_OK);
-	place_line(&e, 3);
-	assert_int_equal(model_add(&m, &e), ST_OK);
-	path = path_join(folder, "rod.base");
-	assert_int_equal(base_write(&m, path, NULL), ST_OK);
-	free(path);
-	entity_finish(&m.entities[0]);
-	entity_init(&m.entities[0], ENTITY_POINTS);
-	m.entities[0].points = (struct point_list){ 2, 3, calloc(6, sizeof(double)) };
-	m.entities[0].number = 1;
-	path = path_join(folder, "points.base");
-	assert_int_equal(base_write(&m, path, NULL), ST_OK);
-	free(path);
-	model_finish(&m);
-	write_trimmed(folder);
-}
-
-static char *read_text(const char *folder, const char *name)
-{
-	char *path = path_join(folder, name), *text = NULL;
-	size_t n;
-
-	if (file_read(path, 1 << 26, &text, &n, NULL) != ST_OK)
-		fail_msg("%s is not there", path);
-	free(path);
-	return text;
-}
-
-static bool same_file(const char *folder, const char *a, const char *b)
-{
-	size_t n[2];
-	char *path[2] = { path_join(folder, a), path_join(folder, b) }, *bytes[2];
-
-	for (int k = 0; k < 2; k++)
-		assert_int_equal(file_read(path[k], 1 << 26, &bytes[k], &n[k], NULL), ST_OK);
-	const bool same = n[0] == n[1] && !memcmp(bytes[0], bytes[1], n[0]);
-	for (int k = 0; k < 2; k++) {
-		free(path[k]);
-		free(bytes[k]);
-	}
-	return same;
-}
-
-/* All files, pictures too, to the byte. How many. */
-static int same_files(const char *a, const char *b)
-{
-	DIR *d = opendir(a);
-	struct dirent *e;
-	int n = 0;
-
-	while ((e = readdir(d))) {
-		char *here, *there, *text[2];
-		size_t size[2];
-		if (e->d_name[0] == '.')
-			continue;
-		here = path_join(a, e->d_name);
-		there = path_join(b, e->d_name);
-		assert_int_equal(file_read(here, 1 << 26, &text[0], &size[0], NULL), ST_OK);
-		if (file_read(there, 1 << 26, &text[1], &size[1], NULL) != ST_OK)
-			fail_msg("%s is not there", there);
-		if (size[0] != size[1] || memcmp(text[0], text[1], size[0]))
-			fail_msg("%s differs from %s", here, there);
-		for (int k = 0; k < 2; k++)
-			free(text[k]);
-		free(here);
-		free(there);
-		n++;
-	}
-	closedir(d);
-	return n;
-}
+/* ------------------------------------------------------------ the world */
 
 /* The session without what is the window's alone and what the disk says; paths from the folder. */
 static char *session_of(struct world *w, const char *folder)
@@ -434,7 +315,7 @@ static char *session_of(struct world *w, const char *folder)
 	json_t *o, *x;
 
 	assert_int_equal(world_keep_session(w, NULL), ST_OK);
-	char *text = read_text(folder, ".batten/session/session.json");
+	char *text = journal_text(folder, ".batten/session/session.json");
 	for (char *p = text; (p = strstr(p, folder));)
 		memset(p, '_', strlen(folder));
 	assert_int_equal(json_parse_object(text, strlen(text), "session", &o, NULL), ST_OK);
@@ -458,9 +339,9 @@ static void every_leaf_is_in_the_journal_and_done_again(void **state)
 
 	assert_non_null(mkdtemp(again));
 	assert_non_null(mkdtemp(twice));
-	write_inputs(s->folder);
-	write_inputs(again);
-	write_inputs(twice);
+	journal_inputs(s->folder);
+	journal_inputs(again);
+	journal_inputs(twice);
 	assert_int_equal(run_in(s->folder, "jobs >/dev/null"), 0); /* the service runs */
 	for (int k = 0; k < N_STEPS; k++) {
 		if (!strcmp(steps[k], "V163") || !strcmp(steps[k], "V164") ||
@@ -476,10 +357,10 @@ static void every_leaf_is_in_the_journal_and_done_again(void **state)
 	assert_true(s->closed);
 
 	/* from where they are seen can be told from the pictures */
-	assert_false(same_file(s->folder, "dragged.png", "back.png"));
-	assert_false(same_file(s->folder, "dragged.png", "again.png"));
+	assert_false(journal_same_file(s->folder, "dragged.png", "back.png"));
+	assert_false(journal_same_file(s->folder, "dragged.png", "again.png"));
 
-	char *journal = read_text(s->folder, ".batten/journal");
+	char *journal = journal_text(s->folder, ".batten/journal");
 	for (const struct routine *t = routine_table; t->code; t++) {
 		char *line = text_print("\n%s ", t->code), *alone = text_print("\n%s\n", t->code);
 		if (t->run && !strstr(journal, line) && !strstr(journal, alone) &&
@@ -493,8 +374,8 @@ static void every_leaf_is_in_the_journal_and_done_again(void **state)
 	char *path = text_print("%s/.batten/journal", s->folder);
 	char *arguments = text_print("script %s >/dev/null", path);
 	assert_int_equal(run_in(again, arguments), 0);
-	assert_true(same_files(s->folder, again) > 20);
-	assert_true(same_files(again, s->folder) > 20);
+	assert_true(journal_same_folder(s->folder, again) > 20);
+	assert_true(journal_same_folder(again, s->folder) > 20);
 	free(arguments);
 
 	struct project project;
