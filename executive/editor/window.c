@@ -7,6 +7,7 @@
 #include <malloc.h>
 #include <math.h>
 #include <pango/pangocairo.h>
+#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -122,6 +123,18 @@ static void display_gone(Display *d, void *data)
 	if (!desk_world_lent(w->desk))
 		world_keep_session(w->world, &w->report);
 	_exit(1);
+}
+
+/* Xlib hears of it when it next has something to send, which is seconds away in a large frame. */
+void window_feel_display(struct window *w)
+{
+	Display *d = glXGetCurrentDisplay();
+
+	if (!d)
+		return;
+	struct pollfd p = { .fd = ConnectionNumber(d) };
+	if (poll(&p, 1, 0) == 1 && (p.revents & (POLLHUP | POLLERR)))
+		display_gone(d, w);
 }
 
 /* Xlib would write a sentence of its own. */

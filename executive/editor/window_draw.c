@@ -32,6 +32,7 @@ static void draw_views(struct window *w)
 		return;
 	}
 	clear_views(w, tile[0].view.theme);
+	window_feel_display(w);
 	for (int i = n - 1; i >= 0; i--) { /* the one with the keyboard last: its key is told */
 		const int k =
 		        i ? (i == desk_tile_focus(w->desk) ? 0 : i) : desk_tile_focus(w->desk);
@@ -45,6 +46,7 @@ static void draw_views(struct window *w)
 		              height, &more, &store.report) != ST_OK)
 			desk_say(w->desk, REPORT_ERROR, "%s", store.error);
 		w->again |= more;
+		window_feel_display(w);
 	}
 	compose_view_end(w->compose);
 }
@@ -64,7 +66,9 @@ static void paint_part(struct window *w, enum desk_part part)
 	if (!cr)
 		return;
 	desk_paint(w->desk, part, cr);
+	window_feel_display(w);
 	compose_paint_end(w->compose, p, cr);
+	window_feel_display(w);
 }
 
 void window_draw(struct window *w, unsigned dirty)

@@ -37,6 +37,9 @@ struct window {
 	char title[256];
 };
 
+/* window.c */
+void window_feel_display(struct window *w); /* ends the editor where the X server went away */
+
 /* window_input.c */
 void window_listen(struct window *w);
 void window_flush_move(struct window *w);
