@@ -129,6 +129,15 @@ static void hello_look(struct worker *w)
 	kill(-w->pid, SIGKILL);
 }
 
+/* A process that waits in vfork hears a stop only when its child has become another program, which
+ * a child stopped before that never does: all go on for a moment, and are stopped again. */
+static void stop_look(struct worker *w)
+{
+	if (!w->stop_looks || !w->pid || ++w->stop_looks < STOP_LOOKS)
+		return;
+	kill(-w->pid, w->stop_looks % 2 ? SIGCONT : SIGSTOP);
+}
+
 /* libuv does not tell of stops. */
 void child_on_signal(uv_signal_t *signal, int number)
 {
@@ -141,6 +150,7 @@ void child_on_signal(uv_signal_t *signal, int number)
 		       !waitid(P_PID, (id_t)w->pid, &si, WSTOPPED | WCONTINUED | WNOHANG) &&
 		       si.si_pid) {
 			w->stopped = si.si_code == CLD_STOPPED;
+			w->stop_looks = w->stopped ? 0 : w->stop_looks;
 			hello_begin(w);
 			l->sink.stopped(l->sink.data, w->id, w->stopped);
 			si = (siginfo_t){ 0 };
@@ -156,6 +166,7 @@ void child_on_look(uv_timer_t *timer)
 	struct stat s;
 	for (struct worker *w = l->workers; w; w = w->next) {
 		hello_look(w);
+		stop_look(w);
 		if (fstat(w->log, &s) || s.st_size <= LOG_MAX || ftruncate(w->log, 0))
 			continue;
 		if (write(w->log, note, sizeof note - 1) < 0)

@@ -17,6 +17,7 @@ struct worker {
 	int n_handles; /* still open */
 	bool forgotten;
 	bool greeted, stopped, late; /* late: killed, for it said nothing in time */
+	int stop_looks;              /* since it was told to stop and has not; 0: it was not */
 	uint64_t hello_ms;           /* of the loop: until when it must say something; 0: ever */
 	struct message_reader reader;
 	char *job_file; /* owned */
@@ -46,6 +47,6 @@ void child_forget(struct worker *w);
 void child_on_signal(uv_signal_t *signal, int number);
 void child_on_look(uv_timer_t *timer);
 
-enum { LOG_LOOK_MS = 500 };
+enum { LOG_LOOK_MS = 500, STOP_LOOKS = 3 };
 
 #endif

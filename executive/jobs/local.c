@@ -170,6 +170,7 @@ static void local_signal(void *data, int64_t id, enum launcher_signal signal)
 	struct worker *w = worker_find(data, id);
 	if (!w || !w->pid)
 		return;
+	w->stop_looks = signal == LAUNCHER_STOP && !w->stopped;
 	kill(-w->pid, numbers[signal]);
 	if (signal == LAUNCHER_TERMINATE)
 		kill(-w->pid, SIGCONT); /* a stopped process would hear it only then */

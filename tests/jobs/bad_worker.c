@@ -215,6 +215,20 @@ static void escapes(void)
 	play_done();
 }
 
+/* It waits in vfork, where no stop reaches it, for a child that a stop reaches. */
+static void begets(void)
+{
+	greet();
+	play_send(MESSAGE_PROGRESS, json_pack("{s:i, s:i}", "done", 1, "total", 2));
+	pid_t child = vfork();
+	if (child == 0) {
+		sleep(1);
+		execl("/bin/sleep", "sleep", "60", (char *)NULL);
+		_exit(127);
+	}
+	play_stay();
+}
+
 static void babbles(void)
 {
 	static char line[65536];
@@ -251,19 +265,33 @@ static const struct {
 	const char *name;
 	void (*play)(void);
 } roles[] = {
-	{ "babbles", babbles },   { "closes", closes },
-	{ "crash", crash },       { "early", early },
-	{ "error", error },       { "escapes", escapes },
-	{ "flood", flood },       { "garbage", garbage },
-	{ "half", half },         { "grandchild", grandchild },
-	{ "hasty", hasty },       { "huge", huge },
-	{ "json", json },         { "lazy", lazy },
-	{ "lies", lies },         { "lingers", lingers },
-	{ "mute", mute },         { "notes", notes },
-	{ "older", older },       { "quits", quits },
-	{ "shows", shows },       { "silent", silent },
-	{ "stubborn", stubborn }, { "twice", twice },
-	{ "undone", undone },     { "unknown", unknown },
+	{ "babbles", babbles },
+	{ "begets", begets },
+	{ "closes", closes },
+	{ "crash", crash },
+	{ "early", early },
+	{ "error", error },
+	{ "escapes", escapes },
+	{ "flood", flood },
+	{ "garbage", garbage },
+	{ "half", half },
+	{ "grandchild", grandchild },
+	{ "hasty", hasty },
+	{ "huge", huge },
+	{ "json", json },
+	{ "lazy", lazy },
+	{ "lies", lies },
+	{ "lingers", lingers },
+	{ "mute", mute },
+	{ "notes", notes },
+	{ "older", older },
+	{ "quits", quits },
+	{ "shows", shows },
+	{ "silent", silent },
+	{ "stubborn", stubborn },
+	{ "twice", twice },
+	{ "undone", undone },
+	{ "unknown", unknown },
 };
 
 int main(int argc, char **argv)

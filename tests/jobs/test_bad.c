@@ -97,6 +97,20 @@ static void kill_ends_one_that_ignores_all(void **state)
 	assert_string_equal(s->reason, "killed by you");
 }
 
+static void suspend_reaches_one_that_waits_in_vfork(void **state)
+{
+	struct place *p = *state;
+	int64_t id = place_submit(p, "begets", 0, NULL);
+	place_until_done(p, id, 1);
+	const pid_t pid = place_job(p, id)->pid;
+	while (process_state(pid) != 'D') /* it sends its progress just before */
+		assert_true(process_state(pid) != 0);
+	assert_int_equal(place_ask(p, MESSAGE_SUSPEND, id), ST_OK);
+	assert_int_equal(place_job(p, id)->state, JOB_SUSPENDED);
+	assert_int_equal(place_ask(p, MESSAGE_KILL, id), ST_OK);
+	assert_int_equal(place_job(p, id)->state, JOB_KILLED);
+}
+
 static void kill_reaches_one_that_is_suspended(void **state)
 {
 	struct place *p = *state;
@@ -182,6 +196,7 @@ int main(void)
 		T(each_fails_with_its_reason),
 		T(kill_ends_one_that_ignores_all),
 		T(kill_reaches_one_that_is_suspended),
+		T(suspend_reaches_one_that_waits_in_vfork),
 		T(what_a_worker_leaves_behind_dies_with_it),
 		T(a_pipe_held_from_far_delays_the_end_only_a_while),
 		T(a_log_has_its_limits),
