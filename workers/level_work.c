@@ -158,6 +158,11 @@ size_t level_work_units(const struct level_work *l)
 	return l->first[l->n_surfaces] * (size_t)l->n;
 }
 
+static bool stop_asked(void *work)
+{
+	return work_cancelled(work);
+}
+
 enum status level_work_unit(const struct level_work *l, struct work *w, size_t unit)
 {
 	const size_t each = l->first[l->n_surfaces], place = unit % each;
@@ -167,12 +172,13 @@ enum status level_work_unit(const struct level_work *l, struct work *w, size_t u
 	const struct level *level = l->levels[unit / each * l->n_surfaces + s];
 	const size_t groups = l->first[s + 1] - l->first[s], group = place - l->first[s];
 	const size_t patches = level_patches(level), end = (group + 1) * patches / groups;
+	const struct level_stop stop = { stop_asked, w };
 	struct text bytes = { 0 };
 	enum status st = ST_OK;
 	level_head_add(&bytes, &l->heads[unit / each]);
 	const size_t head = bytes.n;
 	for (size_t p = group * patches / groups; st == ST_OK && p < end; p++)
-		st = work_cancelled(w) ? ST_CANCELLED : level_patch(level, p, &bytes);
+		st = stop_asked(w) ? ST_CANCELLED : level_patch(level, p, &stop, &bytes);
 	if (st == ST_OK && bytes.failed)
 		st = ST_RESOURCE;
 	if (st == ST_OK)

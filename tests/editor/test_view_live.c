@@ -37,7 +37,7 @@ static void put_angle(struct part *part, const struct surface *s, int k)
 	level_head_add(&block, &(struct level_head){ LEVEL_ISOPHOTE, degrees });
 	assert_int_equal(level_create(&l, s, &field, 1e-6, &report_none), ST_OK);
 	for (size_t p = 0; p < level_patches(l); p++)
-		assert_int_equal(level_patch(l, p, &block), ST_OK);
+		assert_int_equal(level_patch(l, p, NULL, &block), ST_OK);
 	assert_int_equal(part_put(part, (size_t)k, block.s, block.n, &report_none), ST_OK);
 	level_destroy(l);
 	text_finish(&block);

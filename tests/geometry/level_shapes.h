@@ -44,7 +44,7 @@ static inline enum status shape_trace_level(const struct level *l, struct level_
 	struct text bytes = { 0 };
 	enum status st = ST_OK;
 	for (size_t i = 0; st == ST_OK && i < level_patches(l); i++)
-		st = level_patch(l, i, &bytes);
+		st = level_patch(l, i, NULL, &bytes);
 	if (st == ST_OK)
 		st = level_join(l, &(const char *){ bytes.s }, &bytes.n, 1, out, r);
 	text_finish(&bytes);

@@ -212,11 +212,11 @@ static void test_blocks(void **state)
 	assert_int_equal(level_create(&l, &s, &field, 1e-5, NULL), ST_OK);
 	assert_int_equal(level_patches(l), BLOCKS);
 	for (int i = BLOCKS; i-- > 0;)
-		assert_int_equal(level_patch(l, i, &bytes[i]), ST_OK);
+		assert_int_equal(level_patch(l, i, NULL, &bytes[i]), ST_OK);
 	for (int i = 0; i < BLOCKS; i++) {
 		blocks[i] = bytes[i].s ? bytes[i].s : "";
 		sizes[i] = bytes[i].n;
-		assert_int_equal(level_patch(l, i, &whole), ST_OK);
+		assert_int_equal(level_patch(l, i, NULL, &whole), ST_OK);
 	}
 	assert_int_equal(level_join(l, blocks, sizes, BLOCKS, &x, NULL), ST_OK);
 	assert_int_equal(level_join(l, &(const char *){ whole.s }, &whole.n, 1, &y, NULL), ST_OK);

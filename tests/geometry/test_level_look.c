@@ -41,7 +41,7 @@ static void block_of(struct text *out, const struct surface *s, double degrees)
 	level_head_add(out, &(struct level_head){ LEVEL_ISOPHOTE, degrees });
 	assert_int_equal(level_create(&l, s, &field, 1e-6, &report_none), ST_OK);
 	for (size_t p = 0; p < level_patches(l); p++)
-		assert_int_equal(level_patch(l, p, out), ST_OK);
+		assert_int_equal(level_patch(l, p, NULL, out), ST_OK);
 	level_destroy(l);
 }
 

@@ -70,11 +70,19 @@ enum status level_set_tolerance_uv(struct level *l, double tolerance, const stru
 
 size_t level_patches(const struct level *l);
 
+/* Asked often while a patch is traced; true: it is to be given up. */
+struct level_stop {
+	bool (*asked)(void *data);
+	void *data;
+};
+
 /*
  * Find and fit all arcs in one patch; append them as bytes (private form, the same on every run).
- * Thread: any number on one level. Errors: ST_RESOURCE.
+ * stop: NULL, never. Stopped, nothing is appended.
+ * Thread: any number on one level. Errors: ST_CANCELLED, ST_RESOURCE.
  */
-enum status level_patch(const struct level *l, size_t patch, struct text *out);
+enum status level_patch(const struct level *l, size_t patch, const struct level_stop *stop,
+                        struct text *out);
 
 /*
  * One connected piece. Knots are threefold, so each span is a Bezier cubic; neighbours have the

@@ -365,7 +365,7 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 		proof = strip_proof(w, a, b, size, first);
 		proof_improve(&best, &proof);
 	}
-	if (good(w, &best) || enough || w->t->failed) {
+	if (good(w, &best) || enough || tracer_ends(w->t)) {
 		x.error = best.space;
 		x.error_uv = best.uv;
 		piece_add(w, &x);

@@ -224,7 +224,7 @@ static void side_confirm(struct tracer *t, const double *c, int n, int d, bool u
 		rising &= i == n || c[i + 1] - c[i] > 2.0001 * e;
 		falling &= i == n || c[i + 1] - c[i] < -2.0001 * e;
 	}
-	if (above || below || rising || falling || zero || t->failed)
+	if (above || below || rising || falling || zero || tracer_ends(t))
 		return;
 	int along = 1 - d;
 	if (strip.level[along] >= deepest(t)) {
@@ -300,7 +300,7 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 {
 	int m = t->level->degree[0], n = t->level->degree[1];
 	double lo, hi;
-	if (t->failed)
+	if (tracer_ends(t))
 		return;
 	form_range(c, t->n_field, &lo, &hi);
 	double most = larger(-lo, hi);

@@ -138,7 +138,7 @@ static void parts_make(struct tracer *t, struct parts *p)
 static struct form dot(struct tracer *t, const struct form a[3], const struct form b[3])
 {
 	struct form out = form_new(t, a[0].m + b[0].m, a[0].n + b[0].n);
-	for (int k = 0; k < 3; k++)
+	for (int k = 0; k < 3 && !tracer_ends(t); k++)
 		form_add_product(&out, a[k], b[k], 1);
 	form_tighten(t, &out);
 	return out;
@@ -147,7 +147,8 @@ static struct form dot(struct tracer *t, const struct form a[3], const struct fo
 static struct form product(struct tracer *t, struct form a, struct form b)
 {
 	struct form out = form_new(t, a.m + b.m, a.n + b.n);
-	form_add_product(&out, a, b, 1);
+	if (!tracer_ends(t))
+		form_add_product(&out, a, b, 1);
 	form_tighten(t, &out);
 	return out;
 }

@@ -298,7 +298,8 @@ static void tracer_init(struct tracer *t, const struct level *l, size_t patch)
 		t->n_side = (size_t)(l->side_degree[0] + 1) * (l->side_degree[1] + 1);
 }
 
-enum status level_patch(const struct level *l, size_t patch, struct text *out)
+enum status level_patch(const struct level *l, size_t patch, const struct level_stop *stop,
+                        struct text *out)
 {
 	const enum level_kind kind = l->surface->kind;
 	if (level_plane_misses(l, patch))
@@ -307,7 +308,8 @@ enum status level_patch(const struct level *l, size_t patch, struct text *out)
 	struct piece pieces[LENT_PIECES];
 	struct arc arcs[LENT_ARCS];
 	struct arc_end ends[2 * LENT_ARCS];
-	struct tracer t = { .room = room,
+	struct tracer t = { .stop = stop,
+		            .room = room,
 		            .stack = room,
 		            .n_room = ROOM,
 		            .pieces = { pieces, 0, LENT_PIECES, .lent = true },
@@ -322,7 +324,9 @@ enum status level_patch(const struct level *l, size_t patch, struct text *out)
 	double *c = level_room(&t, t.n_field + t.n_side);
 	if (!t.failed && level_field_make(&t, c))
 		level_search(&t, c);
-	if (!t.failed)
+	if (t.stopped)
+		st = ST_CANCELLED;
+	else if (!t.failed)
 		st = patch_write(&t, out);
 	for (int i = 0; i < N_SCRATCH && t.scratch[i]; i++) /* filled in order */
 		level_room_free(&t, t.scratch[i]);

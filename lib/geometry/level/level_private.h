@@ -252,8 +252,18 @@ struct tracer {
 	double *room;               /* what is left of the memory on the stack */
 	size_t n_room;
 	const double *stack; /* all of it */
-	bool failed;         /* memory ran out */
+	const struct level_stop *stop;
+	bool failed;  /* memory ran out, or stopped */
+	bool stopped; /* was asked to */
 };
+
+/* Before every step that takes long: is there no sense in going on? */
+static inline bool tracer_ends(struct tracer *t)
+{
+	if (!t->failed && t->stop && t->stop->asked(t->stop->data))
+		t->stopped = t->failed = true;
+	return t->failed;
+}
 
 /* level_field.c: what LEVEL_PLANE prepares. Errors: ST_RESOURCE. */
 enum status level_plane_prepare(struct level_surface *s);
