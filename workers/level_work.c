@@ -53,11 +53,11 @@ static bool same(struct vec3 a, struct vec3 b)
 	return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* Do they differ in their value alone? */
+/* Do they differ in their value alone, and want the same prepared? */
 static bool alike(const struct level_field *a, const struct level_field *b)
 {
 	return a->kind == b->kind && same(a->direction, b->direction) && same(a->point, b->point) &&
-	       same(a->eye, b->eye);
+	       same(a->eye, b->eye) && level_oblique(a) == level_oblique(b);
 }
 
 static enum status levels_create(struct level_work *l, const struct work *w,

@@ -187,7 +187,7 @@ static enum status forms_prepare(struct level_surface *s, double tolerance)
 		highest = highest > s->degree[d] ? highest : s->degree[d];
 	}
 	int most = 2 * (highest + larger_order(s));
-	if (s->kind == LEVEL_CURVATURE)
+	if (s->root || s->kind == LEVEL_CURVATURE)
 		most = 4 * highest + 2 * ROOT_DEGREE;
 	s->binomial = binomial_make(most);
 	if (!s->binomial)
@@ -197,10 +197,15 @@ static enum status forms_prepare(struct level_surface *s, double tolerance)
 	enum status st = level_normals(s);
 	if (st != ST_OK || !s->root)
 		return st;
-	level_root_tables(s->root, s->degree, s->binomial);
+	level_root_tables(s->root, s->kind == LEVEL_ISOPHOTE ? ROOT_DEGREE_LOW : ROOT_DEGREE,
+	                  s->degree, s->binomial);
 	/* relative to the size of a patch, as a rule, and what rounding allows */
 	double share = 1e-4 * tolerance / (s->net.size + 1e-300);
-	return level_root_refine(s, smaller(larger(share, 1e-13), 1e-11));
+	if (s->kind == LEVEL_ISOPHOTE)
+		share = smaller(larger(share / LEVEL_OBLIQUE, 1e-9), 1e-8);
+	else
+		share = smaller(larger(share, 1e-13), 1e-11);
+	return level_root_refine(s, share);
 }
 
 static enum status edges_create(struct level_surface *s)
@@ -227,6 +232,13 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 	net_clean(&s->net);
 	reach_find(s, from);
 	s->kind = field->kind;
+	if (level_oblique(field)) {
+		s->root = malloc(sizeof *s->root);
+		if (!s->root) {
+			st = ST_RESOURCE;
+			goto fail;
+		}
+	}
 	frame_make(level_shapes[s->kind].line ? field->direction : vec3(0, 0, 1), s->frame);
 	for (int d = 0; d < 3; d++) {
 		struct vec3 row = vec3_of(s->frame[d]);
@@ -236,7 +248,7 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 	}
 	const int spans = s->net.spans[0] * s->net.spans[1];
 	st = level_net_even(&s->net);
-	if (s->kind == LEVEL_CURVATURE || s->net.spans[0] * s->net.spans[1] > spans)
+	if (s->kind == LEVEL_CURVATURE || s->root || s->net.spans[0] * s->net.spans[1] > spans)
 		s->steps *= 2; /* halving adds roundings */
 	if (st == ST_OK && s->kind == LEVEL_CURVATURE)
 		st = curvature_prepare(s, field->quantity);
@@ -276,8 +288,9 @@ static enum status level_set(struct level *l, const struct level_field *field, d
 	l->tolerance = tolerance;
 	l->tolerance_uv = INFINITY;
 	l->value = shape->valued ? field->value : 0;
-	if (angle && fabs(l->value) < 1e-15)
+	if (angle && fabs(l->value) <= LEVEL_COSINE_ZERO)
 		l->value = 0;
+	l->oblique = s->root && level_oblique(field);
 	l->side = shape->side && l->value != 0;
 	l->sine = sqrt(larger(0, (1 - l->value) * (1 + l->value)));
 	for (int d = 0; d < 3; d++)
@@ -287,6 +300,8 @@ static enum status level_set(struct level *l, const struct level_field *field, d
 		l->degree[d] = shape->normal[l->value != 0] * s->degree[d] +
 		               shape->point[l->value != 0] * (s->net.order[d] - 1);
 		l->side_degree[d] = l->degree[d] / 2;
+		if (l->oblique && l->degree[d] < s->root->degree)
+			l->degree[d] = s->root->degree;
 	}
 	if (field->kind == LEVEL_PLANE)
 		level_plane_bound(l);

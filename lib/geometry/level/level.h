@@ -52,9 +52,13 @@ struct level; /* opaque: one surface, one field, its Bezier net; read-only after
 enum status level_create(struct level **out, const struct surface *s,
                          const struct level_field *field, double tolerance, const struct report *r);
 
+/* An isophote next to 90 degrees, which is made in another way than others and wants more prepared. */
+bool level_oblique(const struct level_field *field);
+
 /*
  * Another value on the same surface, kind, direction and tolerance. It borrows what `first`
- * prepared: destroy it before. For LEVEL_PLANE the value goes with the direction as a unit vector.
+ * prepared: destroy it before. A value next to 90 degrees wants a first one that is, too (level_oblique): else it
+ * is slow and its bounds are wide. For LEVEL_PLANE the value goes with the direction as a unit vector.
  * Errors: ST_PARAMETER, ST_RESOURCE.
  */
 enum status level_create_like(struct level **out, const struct level *first, double value,

@@ -1,7 +1,7 @@
 /* level_field.c - f on one patch: its Bernstein form, and its value with the surface's.
  *
- * In the frame whose third axis is the light an isophote is sin^2 z^2 - cos^2 (x^2 + y^2) = 0 for
- * the normal (x, y, z), with z of the sign of the cosine; at 90 degrees it is z = 0.
+ * In the frame whose third axis is the light a silhouette, and an isophote at 90 degrees, is z = 0 for the
+ * normal (x, y, z).
  */
 #include "level_form.h"
 #include "level_private.h"
@@ -15,41 +15,6 @@ static const struct level_surface *surface_of(const struct tracer *t)
 	return t->level->surface;
 }
 
-/*
- * All normals' coefficients, and so all normals, lie inside the cone of the angle about the light,
- * or all beyond one plane that touches it.
- */
-static bool cone_excludes(const struct tracer *t, size_t count)
-{
-	const double c = fabs(t->level->value), s = t->level->sine;
-	const double sign = t->level->value < 0 ? -1 : 1;
-	const double error = 3 * surface_of(t)->normal_error[t->patch];
-	double mx = 0, my = 0;
-	bool inside = true;
-	for (size_t i = 0; i < count; i++) {
-		const double *n = t->normals + 4 * i;
-		double z = s * sign * n[2] - error;
-		mx += n[0];
-		my += n[1];
-		if (!(z > 0 && z * z > c * c * (n[0] * n[0] + n[1] * n[1]) * (1 + 1e-12)))
-			inside = false;
-	}
-	if (inside)
-		return true;
-	double l = hypot(mx, my);
-	if (!(l > 0))
-		return false;
-	mx *= c / l;
-	my *= c / l;
-	for (size_t i = 0; i < count; i++) {
-		const double *n = t->normals + 4 * i;
-		double beyond = mx * n[0] + my * n[1] - sign * s * n[2];
-		if (!(beyond > error + 1e-12 * (fabs(n[0]) + fabs(n[1]) + fabs(n[2]))))
-			return false;
-	}
-	return true;
-}
-
 struct bound level_normal_bound(const struct tracer *t)
 {
 	const struct level_surface *s = surface_of(t);
@@ -58,31 +23,6 @@ struct bound level_normal_bound(const struct tracer *t)
 	form_range(t->normals, level_normals_size(s), &lo, &hi);
 	b.size = larger(-lo, hi);
 	return b;
-}
-
-static bool isophote_make(struct tracer *t, double *out)
-{
-	const struct level_surface *s = surface_of(t);
-	int m = s->degree[0], n = s->degree[1];
-	size_t count = (size_t)(m + 1) * (n + 1);
-	double c = t->level->value, sine = t->level->sine;
-	if (cone_excludes(t, count))
-		return false;
-	struct bound normal = level_normal_bound(t);
-	struct bound square = bound_product(normal, normal, 2 * m, 2 * n);
-	t->bound = bound_sum(bound_sum(square, c * c, square), c * c, square);
-	t->side_error = normal.error;
-	memset(out, 0, sizeof *out * t->n_field);
-	for (int k = 0; k < 3; k++) {
-		for (size_t i = 0; i < count; i++)
-			t->product[i] = t->normals[4 * i + k];
-		form_scale(t->product, m, n, s->binomial, false);
-		form_square(t->product, m, n, k == 2 ? sine * sine : -c * c, out);
-	}
-	form_scale(out, 2 * m, 2 * n, s->binomial, true);
-	for (size_t i = 0; i < count; i++)
-		out[t->n_field + i] = c < 0 ? -t->normals[4 * i + 2] : t->normals[4 * i + 2];
-	return true;
 }
 
 static bool silhouette_make(struct tracer *t, double *out)
@@ -238,7 +178,7 @@ bool level_field_make(struct tracer *t, double *out)
 	             : level_shapes[kind].several ? level_kind_make(t, out)
 	             : kind == LEVEL_PLANE        ? plane_make(t, out)
 	             : l->value == 0              ? silhouette_make(t, out)
-	                                          : isophote_make(t, out);
+	                                          : level_isophote_make(t, out);
 	if (!there)
 		return false;
 	clean_sides(t, out);

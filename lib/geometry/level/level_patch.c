@@ -292,6 +292,9 @@ static void tracer_init(struct tracer *t, const struct level *l, size_t patch)
 		t->bent[0][k] = s->bent[0][level_edge(s, 0, t->place[0] + k, t->place[1])];
 		t->bent[1][k] = s->bent[1][level_edge(s, 1, t->place[0], t->place[1] + k)];
 	}
+	/* lengths of normals are made for each patch alone */
+	for (int k = 0; l->oblique && k < 2; k++)
+		t->bent[0][k] = t->bent[1][k] = true;
 	if (s->normals)
 		t->normals = s->normals + level_normals_size(s) * patch;
 	if (l->side)
@@ -320,7 +323,7 @@ enum status level_patch(const struct level *l, size_t patch, const struct level_
 	t.field = level_room(&t, t.n_field);
 	t.product = level_room(&t, kind == LEVEL_CURVATURE      ? level_curvature_room(l)
 	                           : level_shapes[kind].several ? level_kind_room(l)
-	                                                        : t.n_side + 1);
+	                                                        : level_isophote_room(l));
 	double *c = level_room(&t, t.n_field + t.n_side);
 	if (!t.failed && level_field_make(&t, c))
 		level_search(&t, c);

@@ -53,8 +53,8 @@ struct proof_tables {
 	double cosine[PROOF_NODES][PROOF_NODES / 2];
 };
 
-/* The degree of the polynomial that stands for the normal's length, if the normal's is not higher. */
-enum { ROOT_DEGREE = 16, ROOT_DEGREE_MAX = NORMAL_DEGREE_MAX };
+/* The least degree of the polynomial for the normal's length: for curvatures; for isophotes, which need less. */
+enum { ROOT_DEGREE = 16, ROOT_DEGREE_LOW = 12, ROOT_DEGREE_MAX = NORMAL_DEGREE_MAX };
 
 /* Chebyshev's nodes, and what takes values in them to Chebyshev and to Bernstein coefficients. [node] */
 struct root_tables {
@@ -83,10 +83,11 @@ struct level_surface {
 	struct bound of_points, of_weights; /* any component of w S; w */
 	double far,
 	        steps; /* largest |S| of the control points; roundings of a Bezier point, relative */
-	unsigned char *factors;     /* owned; four a patch: how often a factor was taken out of the
+	unsigned char *factors; /* owned; four a patch: how often a factor was taken out of the
 	                               normals on side 2 d + upper */
-	struct root_tables *root;   /* owned; NULL where not needed */
-	double *normal_error;       /* owned; one a patch: of each component's coefficients */
+	struct root_tables
+	        *root;        /* owned; NULL where not needed: curvatures and oblique isophotes */
+	double *normal_error; /* owned; one a patch: of each component's coefficients */
 	struct patch_shape *shapes; /* owned; one a patch */
 	struct proof_tables proof;
 	unsigned char *bent[2];    /* owned; like edges: derivatives of f may jump there */
@@ -100,6 +101,7 @@ struct level {
 	bool owner;          /* of surface; else it belongs to the level this one is like */
 	double direction[4]; /* unit; plane: n and -d */
 	double value, sine;  /* isophote: cosine and sine of the angle */
+	bool oblique;        /* an isophote so near 90 degrees that f is linear in the normal */
 	bool side;     /* f is a difference of squares, and a condition tells which root is meant */
 	int degree[2]; /* of f */
 	int side_degree[2];             /* of the side condition */
@@ -285,6 +287,13 @@ struct field_point {
 };
 void level_field_at(const struct tracer *t, double u, double v, struct field_point *out);
 
+/* level_isophote.c: like level_field_make, but at 90 degrees. Isophotes whose cosine is at most LEVEL_OBLIQUE
+ * are made from the normal's length; below LEVEL_COSINE_ZERO it is 0. */
+#define LEVEL_OBLIQUE     0.02
+#define LEVEL_COSINE_ZERO 1e-15
+bool level_isophote_make(struct tracer *t, double *out);
+size_t level_isophote_room(const struct level *l);
+
 /* level_kind.c: the kinds that are products of several forms. `out` receives f and the side
  * condition; false where there is no curve. */
 bool level_kind_make(struct tracer *t, double *out);
@@ -307,7 +316,8 @@ enum status level_net_halve(struct bezier_net *net, int d, const bool *spans);
 enum status level_net_even(struct bezier_net *net); /* halve where weights are far apart */
 
 /* level_root.c */
-void level_root_tables(struct root_tables *x, const int degree[2], const double *binomial);
+void level_root_tables(struct root_tables *x, int least, const int degree[2],
+                       const double *binomial);
 
 /* Halve spans until the polynomials for the normal's length should be right to `share` of it. The normals
  * are those of the net, before and after. Errors: ST_RESOURCE. */

@@ -12,14 +12,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Directions are halved so often at most, while there are fewer patches than so many times those at first,
- * or than this. */
-enum { ROUNDS_MAX = 8, PATCHES_TIMES = 64, PATCHES_MAX = 20000 };
+/* Directions are halved so often at most, while there are fewer patches than so many times those at first, or for
+ * isophotes than a few; never more than most. */
+enum { ROUNDS_MAX = 8, PATCHES_TIMES = 64, PATCHES_FEW = 1000, PATCHES_MAX = 20000 };
 
-void level_root_tables(struct root_tables *x, const int degree[2], const double *binomial)
+void level_root_tables(struct root_tables *x, int least, const int degree[2],
+                       const double *binomial)
 {
-	const int least = degree[0] > degree[1] ? degree[0] : degree[1];
-	const int n = least > ROOT_DEGREE ? least : ROOT_DEGREE;
+	const int highest = degree[0] > degree[1] ? degree[0] : degree[1];
+	const int n = highest > least ? highest : least;
 	x->degree = n;
 	for (int k = 0; k <= n; k++)
 		x->node[k] = 0.5 - 0.5 * cos(M_PI * (k + 0.5) / (n + 1));
@@ -95,29 +96,97 @@ static void transform(const double a[][ROOT_DEGREE_MAX + 1], int n, const double
 	}
 }
 
-/* How much of |N'| is in the last coefficients in each direction. */
-static void tails(const struct level_surface *s, const double *normals, double *room,
-                  double tail[2])
+/* The least length of the normal, and the largest of its derivatives in each direction. */
+struct extremes {
+	double least, slope[2];
+};
+
+static struct extremes extremes_of(const struct level_surface *s, size_t patch)
+{
+	const int m = s->degree[0], n = s->degree[1];
+	const double *normals = s->normals + level_normals_size(s) * patch;
+	const double error = s->normal_error[patch];
+	struct vec3 sum = vec3(0, 0, 0);
+	struct extremes x = { INFINITY, { 0, 0 } };
+	for (size_t i = 0; i < form_count(m, n); i++)
+		sum = vec3_along(sum, 1, vec3_of(normals + 4 * i));
+	sum = vec3_unit(sum);
+	for (int i = 0; i <= m; i++)
+		for (int k = 0; k <= n; k++) {
+			const double *c = normals + (size_t)4 * (i * (n + 1) + k);
+			struct vec3 here = vec3_of(c);
+			x.least = smaller(x.least, vec3_dot(here, sum) - 3 * error);
+			if (i < m) {
+				struct vec3 step = vec3_sub(vec3_of(c + 4 * (n + 1)), here);
+				x.slope[0] =
+				        larger(x.slope[0], m * (vec3_length(step) + 4 * error));
+			}
+			if (k < n) {
+				struct vec3 step = vec3_sub(vec3_of(c + 4), here);
+				x.slope[1] =
+				        larger(x.slope[1], n * (vec3_length(step) + 4 * error));
+			}
+		}
+	return x;
+}
+
+/* All normals are farther from right angles to the light than isophotes that are made of lengths. */
+static bool length_unused(const struct level_surface *s, size_t patch)
+{
+	const double *normals = s->normals + level_normals_size(s) * patch;
+	double least = INFINITY, most = -INFINITY, across = 0;
+	for (size_t i = 0; i < form_count(s->degree[0], s->degree[1]); i++) {
+		const double *c = normals + 4 * i;
+		least = smaller(least, c[2]);
+		most = larger(most, c[2]);
+		across = larger(across, length2(c[0], c[1]));
+	}
+	return larger(least, -most) > 1.01 * LEVEL_OBLIQUE * across + 3 * s->normal_error[patch];
+}
+
+/* How much of |N'| is in the last coefficients in each direction. Isophotes: of the least one, with what the bound
+ * of level_root_form makes of that. */
+static void tails(const struct level_surface *s, size_t patch, const struct extremes *x,
+                  double *room, double tail[2])
 {
 	const int n = s->root->degree;
 	double *c = room + (n + 1) * (n + 1);
-	lengths(s, normals, room);
+	lengths(s, s->normals + level_normals_size(s) * patch, room);
 	transform(s->root->chebyshev, n, room, c);
 	tail[0] = tail[1] = 0;
 	for (int i = 0; i <= n; i++)
 		for (int k = 0; k <= n; k++) {
-			double x = fabs(c[i * (n + 1) + k]);
-			tail[0] += i >= n - 1 ? x : 0;
-			tail[1] += k >= n - 1 ? x : 0;
+			double y = fabs(c[i * (n + 1) + k]);
+			tail[0] += i >= n - 1 ? y : 0;
+			tail[1] += k >= n - 1 ? y : 0;
 		}
+	double share = c[0] > 0 ? 1 / c[0] : 0;
+	if (s->kind == LEVEL_ISOPHOTE && x->least > 0)
+		share = c[0] / (x->least * x->least) *
+		        (1 + larger(x->slope[0], x->slope[1]) / (n * x->least));
 	for (int d = 0; d < 2; d++)
-		tail[d] = c[0] > 0 ? tail[d] / c[0] : 0;
+		tail[d] *= share;
+}
+
+/* In which directions to halve. A bound of the length that is not above 0 is no use: then where the normal turns more. */
+static void halving_wanted(const struct level_surface *s, size_t patch, double share, double *room,
+                           bool want[2])
+{
+	double tail[2];
+	want[0] = want[1] = false;
+	if (s->kind == LEVEL_ISOPHOTE && length_unused(s, patch))
+		return;
+	const struct extremes x = extremes_of(s, patch);
+	tails(s, patch, &x, room, tail);
+	for (int d = 0; d < 2; d++)
+		want[d] = tail[d] > share || (!(x.least > 0) && x.slope[d] >= x.slope[1 - d]);
 }
 
 enum status level_root_refine(struct level_surface *s, double share)
 {
 	const int n = s->root->degree;
 	const size_t before = (size_t)s->net.spans[0] * s->net.spans[1];
+	const size_t few = s->kind == LEVEL_ISOPHOTE ? PATCHES_FEW : 0;
 	double *room = malloc(sizeof *room * 2 * (n + 1) * (n + 1));
 	enum status st = room ? ST_OK : ST_RESOURCE;
 	for (int round = 0; st == ST_OK && round < ROUNDS_MAX; round++) {
@@ -129,14 +198,15 @@ enum status level_root_refine(struct level_surface *s, double share)
 			break;
 		}
 		for (size_t i = 0; i < patches; i++) {
-			double tail[2];
 			const size_t at[2] = { i / spans[1], spans[0] + i % spans[1] };
-			tails(s, s->normals + level_normals_size(s) * i, room, tail);
+			bool want[2];
+			halving_wanted(s, i, share, room, want);
 			for (int d = 0; d < 2; d++)
-				if (tail[d] > share)
+				if (want[d])
 					any[d] = halve[at[d]] = true;
 		}
-		const bool many = patches > PATCHES_TIMES * before || patches > PATCHES_MAX;
+		const bool many = (patches > PATCHES_TIMES * before && patches > few) ||
+		                  patches > PATCHES_MAX;
 		for (int d = 1; st == ST_OK && d >= 0 && !many; d--)
 			if (any[d])
 				st = level_net_halve(&s->net, d, halve + (d == 0 ? 0 : spans[0]));
@@ -150,46 +220,13 @@ enum status level_root_refine(struct level_surface *s, double share)
 	return st;
 }
 
-/* The least and the largest length of the normal, and the largest of its derivatives. */
-struct extremes {
-	double least, most, slope;
-};
-
-static struct extremes extremes_of(const struct tracer *t)
-{
-	const struct level_surface *s = t->level->surface;
-	const int m = s->degree[0], n = s->degree[1];
-	const double error = s->normal_error[t->patch];
-	struct vec3 sum = vec3(0, 0, 0);
-	struct extremes x = { INFINITY, 0, 0 };
-	for (size_t i = 0; i < form_count(m, n); i++)
-		sum = vec3_along(sum, 1, vec3_of(t->normals + 4 * i));
-	sum = vec3_unit(sum);
-	for (int i = 0; i <= m; i++)
-		for (int k = 0; k <= n; k++) {
-			const double *c = t->normals + (size_t)4 * (i * (n + 1) + k);
-			struct vec3 here = vec3_of(c);
-			x.least = smaller(x.least, vec3_dot(here, sum) - 3 * error);
-			x.most = larger(x.most, vec3_length(here) + 3 * error);
-			if (i < m)
-				x.slope = larger(
-				        x.slope,
-				        m * (vec3_length(vec3_sub(vec3_of(c + 4 * (n + 1)), here)) +
-				             4 * error));
-			if (k < n)
-				x.slope = larger(x.slope,
-				                 n * (vec3_length(vec3_sub(vec3_of(c + 4), here)) +
-				                      4 * error));
-		}
-	return x;
-}
-
 bool level_root_form(struct tracer *t, const struct form *square, struct form *out)
 {
 	const struct level_surface *s = t->level->surface;
 	const int n = s->root->degree;
 	struct form values = form_new(t, n, n), rest = form_new(t, 2 * n, 2 * n);
-	const struct extremes x = extremes_of(t);
+	const struct extremes x = extremes_of(s, t->patch);
+	const double slope = larger(x.slope[0], x.slope[1]);
 	*out = form_new(t, n, n);
 	if (!(x.least > 0))
 		return false;
@@ -203,6 +240,6 @@ bool level_root_form(struct tracer *t, const struct form *square, struct form *o
 	const double off = rest.b.size + rest.b.error;
 	if (!(off <= 0.25 * x.least * x.least))
 		return false;
-	out->b.error = off / x.least * (1.25 + 0.4 * x.slope / (n * x.least));
+	out->b.error = off / x.least * (1.25 + 0.4 * slope / (n * x.least));
 	return true;
 }
