@@ -8,6 +8,7 @@
 
 #include "json.h"
 #include "ledger_upgrade.h"
+#include "record.h"
 #include "text.h"
 
 struct book {
@@ -120,7 +121,10 @@ static enum status row_load(struct book *b, sqlite3_stmt *s, ledger_job *each, v
 	json_t *o = text ? json_loadb(text, (size_t)sqlite3_column_bytes(s, 3), 0, NULL) : NULL;
 	struct Stats stats;
 	enum status st = stats_from_json(&stats, o);
+	const bool over = !sqlite3_column_int(s, 4);
 	json_decref(o);
+	if (st == ST_OK && job_state_table[stats.state].over != over)
+		st = ST_INPUT;
 	if (st == ST_INPUT) {
 		/* one record that is damaged costs that job, not the others */
 		stats_finish(&stats);
@@ -188,7 +192,7 @@ static enum status book_load(void *data, ledger_job *each, void *each_data, int6
 	*held = marks > 0;
 	if (sqlite3_prepare_v2(
 	            b->db,
-	            "SELECT id, front, killed, record FROM jobs WHERE ended IS NULL ORDER BY id",
+	            "SELECT id, front, killed, record, 1 FROM jobs WHERE ended IS NULL ORDER BY id",
 	            -1, &s, NULL) != SQLITE_OK)
 		return book_error(b, "read", r);
 	while (st == ST_OK && (code = sqlite3_step(s)) == SQLITE_ROW)
@@ -218,12 +222,17 @@ static bool book_text(void *data, int64_t id, struct text *out)
 {
 	struct book *b = data;
 	sqlite3_bind_int64(b->text, 1, id);
-	bool there = sqlite3_step(b->text) == SQLITE_ROW;
-	if (there)
-		text_add_bytes(out, sqlite3_column_text(b->text, 0),
-		               (size_t)sqlite3_column_bytes(b->text, 0));
+	bool sound = false;
+	if (sqlite3_step(b->text) == SQLITE_ROW) {
+		const char *record = (const char *)sqlite3_column_text(b->text, 0);
+		const size_t n = (size_t)sqlite3_column_bytes(b->text, 0);
+		const char *state = (const char *)sqlite3_column_text(b->text, 1);
+		sound = record && state && record_is_sound(record, n, id, state);
+		if (sound)
+			text_add_bytes(out, record, n);
+	}
 	sqlite3_reset(b->text);
-	return there;
+	return sound;
 }
 
 /* The statement of a choice; which indices serve it stands at `tables`. */
@@ -313,11 +322,12 @@ static enum status book_version(struct book *b, int *version, const struct repor
 	return ST_OK;
 }
 
+enum { BUSY_MS = 2000 };
+
 /* Only the service opens the ledger, so its index may stay in memory. */
 static const char settings[] = "PRAGMA locking_mode=EXCLUSIVE;"
                                "PRAGMA journal_mode=WAL;"
-                               "PRAGMA synchronous=NORMAL;"
-                               "PRAGMA busy_timeout=2000;";
+                               "PRAGMA synchronous=NORMAL;";
 static const char tables[] =
         "BEGIN;"
         "CREATE TABLE IF NOT EXISTS jobs(id INTEGER PRIMARY KEY AUTOINCREMENT,"
@@ -344,8 +354,9 @@ static bool book_prepare(struct book *b)
 		           " ON CONFLICT(id) DO UPDATE SET front=excluded.front,"
 		           " killed=excluded.killed, state=excluded.state, record=excluded.record,"
 		           " ended=excluded.ended, grp=excluded.grp" },
-		{ &b->find, "SELECT id, front, killed, record FROM jobs WHERE id=?" },
-		{ &b->text, "SELECT record FROM jobs WHERE id=? AND json_valid(record)" },
+		{ &b->find,
+		  "SELECT id, front, killed, record, ended IS NULL FROM jobs WHERE id=?" },
+		{ &b->text, "SELECT record, state FROM jobs WHERE id=?" },
 		{ &b->drop, "DELETE FROM jobs WHERE id=?" },
 		{ &b->begin, "BEGIN IMMEDIATE" },
 		{ &b->commit, "COMMIT" },
@@ -413,7 +424,8 @@ enum status ledger_open_telling(struct ledger *out, const char *path, ledger_bus
 		free(b);
 		return report_error(r, ST_RESOURCE, "cannot open the ledger: out of memory");
 	}
-	if (book_open(b) != SQLITE_OK ||
+	/* who has it open for a moment, to copy it, is waited for from the first statement on */
+	if (book_open(b) != SQLITE_OK || sqlite3_busy_timeout(b->db, BUSY_MS) != SQLITE_OK ||
 	    sqlite3_exec(b->db, settings, NULL, NULL, NULL) != SQLITE_OK)
 		st = book_error(b, "open", r);
 	if (st == ST_OK)

@@ -39,7 +39,8 @@ struct ledger {
 	/* One record; each is not called where there is none. Errors: ST_RESOURCE. */
 	enum status (*find)(void *data, int64_t id, ledger_job *each, void *each_data,
 	                    const struct report *r);
-	/* Append its JSON as it was written (stats_write_brief); false: there is none that can be read. */
+	/* Append its JSON as it was written (stats_write_brief); false: there is none, or it is not certain
+	 * that it can be read. */
 	bool (*text)(void *data, int64_t id, struct text *out);
 	/* Ids by rising number; *ids is the caller's to free. Errors: ST_RESOURCE. */
 	enum status (*choose)(void *data, const struct ledger_choice *choice, int64_t **ids,

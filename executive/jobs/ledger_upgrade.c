@@ -37,19 +37,32 @@ static bool pieces(sqlite3 *db)
 	        " ended = CASE WHEN state IN ('done', 'failed', 'killed', 'lost') THEN"
 	        " CASE WHEN json_valid(record) THEN coalesce(json_extract(record, '$.ended'), 0)"
 	        " ELSE 0 END END"
-	        " WHERE id BETWEEN ?1 AND ?1 + ?2 - 1";
-	sqlite3_stmt *s = NULL;
-	int64_t first = 0, last = 0;
-	bool good = number(db, "SELECT coalesce(min(id), 0) FROM jobs", &first) &&
-	            number(db, "SELECT coalesce(max(id), 0) FROM jobs", &last) &&
-	            sqlite3_prepare_v2(db, sql, -1, &s, NULL) == SQLITE_OK;
-	for (int64_t id = first; good && id <= last; id += PIECE) {
-		sqlite3_bind_int64(s, 1, id);
-		sqlite3_bind_int64(s, 2, PIECE);
-		good = sqlite3_step(s) == SQLITE_DONE;
+	        " WHERE id BETWEEN ?1 AND ?2";
+	/* there may be any gap between two numbers: what is counted is records */
+	static const char end[] = "SELECT max(id) FROM"
+	                          " (SELECT id FROM jobs WHERE id > ?1 ORDER BY id LIMIT ?2)";
+	sqlite3_stmt *s = NULL, *next = NULL;
+	int64_t done = 0;
+	bool good = number(db, "SELECT coalesce(min(id), 1) - 1 FROM jobs", &done) &&
+	            sqlite3_prepare_v2(db, sql, -1, &s, NULL) == SQLITE_OK &&
+	            sqlite3_prepare_v2(db, end, -1, &next, NULL) == SQLITE_OK;
+	for (bool more = good; more;) {
+		sqlite3_bind_int64(next, 1, done);
+		sqlite3_bind_int64(next, 2, PIECE);
+		good = sqlite3_step(next) == SQLITE_ROW;
+		more = good && sqlite3_column_type(next, 0) != SQLITE_NULL;
+		const int64_t last = sqlite3_column_int64(next, 0);
+		sqlite3_reset(next);
+		if (!more)
+			break;
+		sqlite3_bind_int64(s, 1, done + 1);
+		sqlite3_bind_int64(s, 2, last);
+		good = more = sqlite3_step(s) == SQLITE_DONE;
 		sqlite3_reset(s);
+		done = last;
 	}
 	sqlite3_finalize(s);
+	sqlite3_finalize(next);
 	return good;
 }
 

@@ -193,9 +193,15 @@ enum status queue_submit(struct queue *q, const struct Stats *s, int n, int64_t 
 	enum status st = changes && fresh ? ST_OK : ST_RESOURCE;
 	int made = 0;
 	int64_t last = q->last;
-	*first = q->last + 1;
+	*first = q->last < INT64_MAX ? q->last + 1 : q->last;
 	if (q->leaving)
 		st = report_error(r, ST_RESOURCE, "the service is ending; submit again");
+	else if (q->last > INT64_MAX - n)
+		st = report_error(
+		        r, ST_RESOURCE,
+		        "the ledger holds a job of number %lld, which is the last there can be; "
+		        "move '.batten/jobs.db' away",
+		        (long long)q->last);
 	for (int i = 0; i < n && st == ST_OK; i++) {
 		struct job *job = fresh[made] = job_create(q);
 		if (!job) {

@@ -91,6 +91,8 @@ static bool send_stats(struct session *c, int64_t id, const struct Stats *s)
 	return packet_end(&c->out, begin, true);
 }
 
+static const char too_long[] = "its record is too long to be shown; see '.batten/jobs.db'";
+
 /* A record too long for a packet leaves out what the client can do without, last what it has made. */
 void session_send_job(struct session *c, int64_t id, const struct Stats *s)
 {
@@ -102,7 +104,21 @@ void session_send_job(struct session *c, int64_t id, const struct Stats *s)
 	if (send_stats(c, id, &brief))
 		return;
 	brief.n_outputs = 0;
-	send_stats(c, id, &brief);
+	if (send_stats(c, id, &brief))
+		return;
+	/* texts of a client's own making: the job is named, at least */
+	const struct Stats least = { .id = s->id,
+		                     .state = s->state,
+		                     .eta_s = NAN,
+		                     .wall_s = NAN,
+		                     .suspended_s = NAN,
+		                     .cpu_s = NAN,
+		                     .peak_kib = -1,
+		                     .bytes = -1,
+		                     .umask = -1,
+		                     .ended = s->ended,
+		                     .reason = (char *)(size_t)too_long };
+	send_stats(c, id, &least);
 }
 
 void session_send_record(struct session *c, int64_t id, int64_t job, bool full)

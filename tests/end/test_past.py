@@ -101,4 +101,25 @@ def test_prune_forgets_all_of_it_and_nothing_else(project):
     assert project.run("batten", "prune").stdout == "1 ended jobs forgotten\n"
 
 
+def test_a_damaged_record_costs_one_job(project):
+    make_past(project, 200)
+    project.run("batten", "jobs")  # takes the ledger over
+    project.run("batten", "shutdown")
+    db = sqlite3.connect(project.path(".batten", "jobs.db"))
+    for i, text in {9: "3", 13: "{}", 17: '{"id":17,"state":"failed","outputs":[{}]}', 21: '{"id":21,"state":"running"}',
+                    25: '{"id":25,"state":"failed","x":1e999}', 29: '{"id":29,"state":"faile'}.items():
+        db.execute("UPDATE jobs SET record=? WHERE id=?", (text, i))
+    db.execute("UPDATE jobs SET record=CAST(? AS TEXT) WHERE id=33", (b'{"id":33,"state":"failed","host":"\xf5"}',))
+    db.commit()
+    db.close()
+    damaged = {9, 13, 17, 21, 25, 29, 33}
+    jobs = project.jobs()
+    assert list(jobs) == list(range(1, 201))
+    assert {i for i in jobs if "damaged" in (jobs[i]["reason"] or "")} == damaged
+    assert all(jobs[i]["state"] == "lost" for i in damaged)
+    assert project.run("batten", "jobs", "--all").stdout.count("\n") == 201
+    assert project.run("batten", "jobs").stdout.count("\n") == 2
+    project.run("batten", "wait", "13", status=1)
+
+
 end.main()

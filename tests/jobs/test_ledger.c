@@ -428,6 +428,97 @@ static void a_ledger_of_before_is_taken_over(void **state)
 	free(path);
 }
 
+/* Numbers far apart, as of a ledger of which much was pruned, and the last that there can be. */
+static void gaps_between_numbers_cost_nothing(void **state)
+{
+	char *path = path_join(*state, "jobs.db");
+	struct ledger l;
+	int64_t *ids;
+	size_t n;
+	sqlite3 *db;
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	fill(&l, 50);
+	ledger_close(&l);
+	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+	assert_int_equal(sqlite3_exec(db,
+	                              "UPDATE jobs SET id=9223372036854775807 WHERE id=49;"
+	                              "UPDATE jobs SET id=1000000000000000 WHERE id=48;"
+	                              "UPDATE jobs SET ended=NULL, grp=NULL;"
+	                              "PRAGMA user_version=1",
+	                              NULL, NULL, NULL),
+	                 SQLITE_OK);
+	sqlite3_close(db);
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	assert_int_equal(l.choose(l.data, &(struct ledger_choice){ 0 }, &ids, &n, NULL), ST_OK);
+	assert_int_equal(n, 40);
+	assert_true(ids[n - 1] == INT64_MAX && ids[n - 2] == 1000000000000000);
+	free(ids);
+	ledger_close(&l);
+	free(path);
+}
+
+/* A record and the row it lies in do not agree on whether the job is over. */
+static void a_state_that_cannot_be_is_damage(void **state)
+{
+	char *path = path_join(*state, "jobs.db");
+	struct ledger l;
+	struct found f = { 0 };
+	int64_t last;
+	bool held;
+	sqlite3 *db;
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	assert_int_equal(put(&l, 1, JOB_DONE, false), ST_OK);
+	assert_int_equal(put(&l, 2, JOB_HELD, false), ST_OK);
+	ledger_close(&l);
+	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+	assert_int_equal(
+	        sqlite3_exec(db,
+	                     "UPDATE jobs SET record='{\"id\":1,\"stat\":\"done\"}' WHERE id=1;"
+	                     "UPDATE jobs SET record='{\"id\":2,\"state\":\"done\"}' WHERE id=2",
+	                     NULL, NULL, NULL),
+	        SQLITE_OK);
+	sqlite3_close(db);
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	assert_int_equal(l.find(l.data, 1, find, &f, NULL), ST_OK);
+	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
+	assert_int_equal(f.n, 2);
+	assert_int_equal(f.states[0], JOB_LOST);
+	assert_int_equal(f.states[1], JOB_LOST);
+	ledger_close(&l);
+	free(path);
+}
+
+/* Somebody copies it. */
+static void who_has_it_open_for_a_moment_is_waited_for(void **state)
+{
+	char *path = path_join(*state, "jobs.db"), byte;
+	struct ledger l;
+	sqlite3 *db;
+	int ready[2], status;
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	ledger_close(&l);
+	assert_int_equal(pipe(ready), 0);
+	pid_t child = fork();
+	if (child == 0) {
+		if (sqlite3_open(path, &db) != SQLITE_OK ||
+		    sqlite3_exec(db, "BEGIN IMMEDIATE; SELECT * FROM jobs", NULL, NULL, NULL) !=
+		            SQLITE_OK ||
+		    write(ready[1], "", 1) != 1)
+			_exit(1);
+		usleep(200000); /* as long as a copy takes: what is waited for, no wait of the test */
+		sqlite3_close(db);
+		_exit(0);
+	}
+	assert_int_equal(read(ready[0], &byte, 1), 1);
+	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
+	ledger_close(&l);
+	assert_int_equal(waitpid(child, &status, 0), child);
+	assert_int_equal(status, 0);
+	close(ready[0]);
+	close(ready[1]);
+	free(path);
+}
+
 #define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
 int main(void)
@@ -441,6 +532,9 @@ int main(void)
 		T(what_is_over_is_found_when_it_is_looked_for),
 		T(a_ledger_of_before_is_taken_over),
 		T(whether_the_queue_is_held_is_kept),
+		T(gaps_between_numbers_cost_nothing),
+		T(a_state_that_cannot_be_is_damage),
+		T(who_has_it_open_for_a_moment_is_waited_for),
 		T(a_ledger_that_may_not_be_written_says_so),
 	};
 	return cmocka_run_group_tests_name("ledger", tests, NULL, NULL);
