@@ -408,6 +408,11 @@ enum status view_draw(struct view *v, const struct world *w, const struct view_s
 	return st;
 }
 
+int view_triangles(const struct view *v)
+{
+	return v->triangles;
+}
+
 bool view_key(const struct view *v, struct key *out)
 {
 	if (v->has_key)

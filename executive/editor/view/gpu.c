@@ -73,6 +73,71 @@ void gpu_poly_finish(struct gpu_poly *g)
 	*g = (struct gpu_poly){ 0 };
 }
 
+/* Attributes 0 to 2: the vertex before, the corner's own, the one behind; each stands twice. */
+static void lay_ribbon(void)
+{
+	const size_t twice = 2 * sizeof(struct poly_vertex);
+	for (GLuint i = 0; i < 3; i++) {
+		glEnableVertexAttribArray(i);
+		glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(struct poly_vertex),
+		                      (const void *)(i * twice));
+	}
+}
+
+static int ribbon_indices(unsigned *out, const struct poly *p)
+{
+	int n = 0;
+	for (int k = 1; k + 2 < p->n; k++) {
+		const unsigned at = 2 * (unsigned)(k - 1);
+		const unsigned corner[6] = { at, at + 1, at + 2, at + 2, at + 1, at + 3 };
+		if (p->v[k].part < 0 || p->v[k + 1].part < 0)
+			continue;
+		memcpy(out + n, corner, sizeof corner);
+		n += 6;
+	}
+	return n;
+}
+
+enum status gpu_ribbon_load(struct gpu_ribbon *g, const struct poly *p)
+{
+	g->n = 0;
+	if (p->n < 4)
+		return ST_OK;
+	struct poly_vertex *twice = malloc(2 * (size_t)p->n * sizeof *twice);
+	unsigned *indices = malloc(6 * (size_t)p->n * sizeof *indices);
+	if (twice && indices) {
+		for (int i = 0; i < 2 * p->n; i++)
+			twice[i] = p->v[i / 2];
+		g->n = ribbon_indices(indices, p);
+		if (!g->array) {
+			glGenVertexArrays(1, &g->array);
+			glGenBuffers(1, &g->vertices);
+			glGenBuffers(1, &g->indices);
+		}
+		glBindVertexArray(g->array);
+		glBindBuffer(GL_ARRAY_BUFFER, g->vertices);
+		glBufferData(GL_ARRAY_BUFFER, 2 * (GLsizeiptr)p->n * (GLsizeiptr)sizeof *twice,
+		             twice, GL_STATIC_DRAW);
+		glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
+		glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+		             (GLsizeiptr)g->n * (GLsizeiptr)sizeof *indices, indices,
+		             GL_STATIC_DRAW);
+		lay_ribbon();
+		glBindVertexArray(0);
+	}
+	free(indices);
+	free(twice);
+	return g->n || !p->n ? ST_OK : ST_RESOURCE;
+}
+
+void gpu_ribbon_finish(struct gpu_ribbon *g)
+{
+	glDeleteVertexArrays(1, &g->array);
+	glDeleteBuffers(1, &g->vertices);
+	glDeleteBuffers(1, &g->indices);
+	*g = (struct gpu_ribbon){ 0 };
+}
+
 void gpu_matrix(const struct gpu_frame *f, struct vec3 origin, float out[16])
 {
 	const double *m = f->matrix;
@@ -129,6 +194,18 @@ static const GLint *use(const struct gpu_frame *f, enum program program, struct 
 	return u;
 }
 
+/* Uniforms of lines, with or without dashes. */
+static const GLint *use_style(const struct gpu_frame *f, enum program program, struct vec3 origin,
+                              const struct gpu_style *style)
+{
+	const GLint *u = use(f, program, origin);
+	glUniform4f(u[UNIFORM_COLOR], (float)style->color.r, (float)style->color.g,
+	            (float)style->color.b, (float)style->alpha);
+	glUniform1f(u[UNIFORM_WIDTH], (float)(style->width * f->scale));
+	glUniform1f(u[UNIFORM_BIAS], (float)(style->lift * f->scale * f->pixel_depth));
+	return u;
+}
+
 void gpu_draw_lines(const struct gpu_frame *f, struct gpu_poly *g, const struct poly *p,
                     const struct gpu_style *style)
 {
@@ -136,17 +213,24 @@ void gpu_draw_lines(const struct gpu_frame *f, struct gpu_poly *g, const struct 
 		return;
 	glBindVertexArray(g->array);
 	bool dashed = style->dash[1] > 0 && load_lengths(f, g, p);
-	const GLint *u = use(f, PROGRAM_LINE, p->origin);
-	glUniform4f(u[UNIFORM_COLOR], (float)style->color.r, (float)style->color.g,
-	            (float)style->color.b, (float)style->alpha);
-	glUniform1f(u[UNIFORM_WIDTH], (float)(style->width * f->scale));
-	glUniform1f(u[UNIFORM_BIAS], (float)(style->lift * f->scale * f->pixel_depth));
+	const GLint *u = use_style(f, PROGRAM_LINE, p->origin, style);
 	glUniform2f(u[UNIFORM_DASH], (float)(style->dash[0] * f->scale),
 	            dashed ? (float)(style->dash[1] * f->scale) : 0);
 	glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, g->n - 3);
 	if (dashed)
 		for (GLuint i = 4; i < 6; i++)
 			glDisableVertexAttribArray(i);
+	glBindVertexArray(0);
+}
+
+void gpu_draw_ribbon(const struct gpu_frame *f, const struct gpu_ribbon *g, struct vec3 origin,
+                     const struct gpu_style *style)
+{
+	if (!g->n)
+		return;
+	use_style(f, PROGRAM_RIBBON, origin, style);
+	glBindVertexArray(g->array);
+	glDrawElements(GL_TRIANGLES, g->n, GL_UNSIGNED_INT, NULL);
 	glBindVertexArray(0);
 }
 

@@ -23,6 +23,15 @@ struct gpu_poly {
 void gpu_poly_load(struct gpu_poly *g, const struct poly *p);
 void gpu_poly_finish(struct gpu_poly *g);
 
+/* Polylines that share the corners between their pieces: quicker, without dashes and round ends. */
+struct gpu_ribbon {
+	GLuint array, vertices, indices;
+	int n; /* indices */
+};
+/* Errors: ST_RESOURCE. */
+enum status gpu_ribbon_load(struct gpu_ribbon *g, const struct poly *p);
+void gpu_ribbon_finish(struct gpu_ribbon *g);
+
 /* Where things are drawn: clip = matrix x place in the world. */
 struct gpu_frame {
 	const struct programs *programs;
@@ -42,6 +51,9 @@ struct gpu_style {
 /* Lines: those with dashes need the polylines they were loaded from. */
 void gpu_draw_lines(const struct gpu_frame *f, struct gpu_poly *g, const struct poly *p,
                     const struct gpu_style *style);
+
+void gpu_draw_ribbon(const struct gpu_frame *f, const struct gpu_ribbon *g, struct vec3 origin,
+                     const struct gpu_style *style);
 
 struct gpu_sprite {
 	struct rgb fill, stroke;

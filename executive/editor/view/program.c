@@ -4,10 +4,8 @@
 #include <string.h>
 
 static const char *const program_names[N_PROGRAMS] = {
-	[PROGRAM_SURFACE] = "surface",
-	[PROGRAM_LINE] = "line",
-	[PROGRAM_SPRITE] = "sprite",
-	[PROGRAM_PLATE] = "plate",
+	[PROGRAM_SURFACE] = "surface", [PROGRAM_QUICK] = "quick surface", [PROGRAM_LINE] = "line",
+	[PROGRAM_RIBBON] = "ribbon",   [PROGRAM_SPRITE] = "sprite",       [PROGRAM_PLATE] = "plate",
 };
 
 #define X(name, text) [UNIFORM_##name] = text,

@@ -7,7 +7,15 @@
 #include "report.h"
 
 /* What is drawn, each by a program of its own. */
-enum program { PROGRAM_SURFACE, PROGRAM_LINE, PROGRAM_SPRITE, PROGRAM_PLATE, N_PROGRAMS };
+enum program {
+	PROGRAM_SURFACE,
+	PROGRAM_QUICK, /* surfaces of small triangles */
+	PROGRAM_LINE,
+	PROGRAM_RIBBON, /* lines of things that are dragged */
+	PROGRAM_SPRITE,
+	PROGRAM_PLATE,
+	N_PROGRAMS
+};
 
 /* Uniforms of all of them; one that a program does not have is -1 there. */
 #define UNIFORM_MAP(X)                                                                             \

@@ -10,6 +10,7 @@ enum {
 static const double chord_px = 0.2;      /* of triangles from their surface, device px */
 static const double line_px = 0.1;       /* of chords from their curve */
 static const double moved_line_px = 0.6; /* while something is dragged */
+static const double small_triangle = 64; /* device px squared */
 static const double coarse_chord = 1e-3; /* of the scene's size */
 static const double border_back = 2;     /* px, of borders behind their surface */
 static const double cut_seconds = 0.06;  /* a drawing may spend on triangles */
@@ -100,10 +101,20 @@ static struct rgb surface_color(const struct Ful *f)
 	return f->display.has_color && c.r + c.g + c.b > 0.15 ? c : plain_surface;
 }
 
+/* Are its triangles so small that light at their corners does? */
+static bool is_small(const struct drawing *d, const struct shape *x, const struct shape_mesh *m)
+{
+	const double across = box_diagonal(&x->box) / drawing_pixel(d, x->origin);
+	return across * across <= small_triangle * m->triangles;
+}
+
 static void draw_surface(struct drawing *d, const struct Ful *f, struct shape *x)
 {
 	const struct shape_mesh *m = d->fine ? finest(x) : &x->coarse;
-	const GLint *u = d->frame.programs->uniform[PROGRAM_SURFACE];
+	const bool map = look_of(d, f) == LOOK_MAP;
+	const bool quick = d->state->moving && !map && is_small(d, x, m);
+	const enum program program = quick ? PROGRAM_QUICK : PROGRAM_SURFACE;
+	const GLint *u = d->frame.programs->uniform[program];
 	const struct sight *s = world_sight((struct world *)d->world);
 	const struct rgb color = surface_color(f);
 	const double shine = (s->specular.r + s->specular.g + s->specular.b) / 3 *
@@ -111,7 +122,7 @@ static void draw_surface(struct drawing *d, const struct Ful *f, struct shape *x
 	float matrix[16];
 	if (!m->gpu.n || m->failed)
 		return;
-	glUseProgram(d->frame.programs->id[PROGRAM_SURFACE]);
+	glUseProgram(d->frame.programs->id[program]);
 	gpu_matrix(&d->frame, x->origin, matrix);
 	glUniformMatrix4fv(u[UNIFORM_MATRIX], 1, GL_FALSE, matrix);
 	set_eye(d, u, x->origin);
@@ -123,11 +134,11 @@ static void draw_surface(struct drawing *d, const struct Ful *f, struct shape *x
 	glUniform4f(u[UNIFORM_STRENGTH], (float)ambient, (float)(diffuse * s->light_intensity),
 	            (float)(shine * s->light_intensity), (float)sharpness);
 	glUniform1f(u[UNIFORM_SCALE], (float)d->frame.scale);
-	const bool mapped = look_of(d, f) == LOOK_MAP && map_use(d, f->id);
-	glUniform1i(u[UNIFORM_LOOK], mapped);
+	glUniform1i(u[UNIFORM_LOOK], map && map_use(d, f->id));
 	glBindVertexArray(m->gpu.array);
 	glUniform1f(u[UNIFORM_BIAS], 0);
 	glDrawElements(GL_TRIANGLES, m->gpu.n, GL_UNSIGNED_INT, NULL);
+	d->view->triangles += m->triangles;
 	/* Chords of neighbours part by less than a px: borders are as wide, a little behind. */
 	glUniform1f(u[UNIFORM_BIAS], (float)(border_back * d->frame.pixel_depth));
 	glDrawElements(GL_LINES, m->gpu.n_border, GL_UNSIGNED_INT,
@@ -141,6 +152,7 @@ static void draw_surfaces(struct drawing *d)
 	glEnable(GL_DEPTH_TEST);
 	glDepthFunc(GL_LESS);
 	glDepthMask(GL_TRUE);
+	d->view->triangles = 0;
 	/* triangles step back by their slope, so that lines on them are whole */
 	glEnable(GL_POLYGON_OFFSET_FILL);
 	glPolygonOffset(1.5F, 2);
@@ -158,8 +170,8 @@ static void draw(struct drawing *d, int i, enum shape_lines which, struct gpu_st
 		style.dash[0] = line == LINE_DASHED ? 6 : 1.5;
 		style.dash[1] = line == LINE_DASHED ? 4 : 3;
 	}
-	if (d->state->moving && which < (int)N_MOVED_LINES)
-		gpu_draw_lines(&d->frame, &x->moved_lines[which], &x->moved_poly[which], &style);
+	if (d->state->moving && which < (int)N_MOVED_LINES && !(style.dash[1] > 0))
+		gpu_draw_ribbon(&d->frame, &x->moved_lines[which], x->origin, &style);
 	else
 		gpu_draw_lines(&d->frame, &x->lines[which], &x->poly[which], &style);
 }

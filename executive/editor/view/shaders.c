@@ -1,4 +1,4 @@
-/* shaders.c - the four programs of the view in GLSL 3.30. */
+/* shaders.c - the programs of the view in GLSL 3.30. */
 #include "program.h"
 
 /* Attributes: 0 position from the thing's origin, 1 normal, 2 u and v from 0 to 1 over the domain. */
@@ -20,32 +20,55 @@ static const char surface_vertex[] = "#version 330 core\n"
                                      "}\n";
 
 /*
- * look: 0 lit color, 1 map of values. Light as in the shading worker's pictures, and some from the
- * viewer's shoulder (fill), so that what lies in the light's shade is read too. The values of a map
- * stand at the corners of its cells, the last row of the texture being the first v; between them
- * is their mean, but where one is missing the nearest.
+ * Light as in the shading worker's pictures, and some from the viewer's shoulder (fill), so that what
+ * lies in the light's shade is read too.
  * eye: position of the eye, or direction towards it (w = 0).
+ */
+#define LIGHTING                                                                                   \
+	"uniform vec4 eye, color;\n"                                                               \
+	"uniform vec3 light, fill, sky;\n"                                                         \
+	"uniform vec4 strength;\n" /* ambient, diffuse, highlight, its sharpness */                \
+	"vec3 srgb(vec3 l)\n"                                                                      \
+	"{\n"                                                                                      \
+	"	l = clamp(l, 0.0, 1.0);\n"                                                               \
+	"	return mix(12.92 * l, 1.055 * pow(l, vec3(1.0 / 2.4)) - 0.055,\n"                        \
+	"	           step(0.0031308, l));\n"                                                       \
+	"}\n"                                                                                      \
+	"vec3 seen_from(vec3 place)\n"                                                             \
+	"{\n"                                                                                      \
+	"	return normalize(eye.xyz - eye.w * place);\n"                                            \
+	"}\n"                                                                                      \
+	"vec3 lit(vec3 n, vec3 to_eye)\n" /* n: towards the eye */                                 \
+	"{\n"                                                                                      \
+	"	float facing = dot(n, to_eye);\n"                                                        \
+	"	float scattered = strength.x * (0.7 + 0.3 * dot(n, sky)) *\n"                            \
+	"	                  (0.75 + 0.25 * facing);\n"                                             \
+	"	scattered += 0.4 * max(dot(n, fill), 0.0);\n"                                            \
+	"	float slope = dot(n, light), shine = 0.0;\n"                                             \
+	"	if (slope > 0.0) {\n"                                                                    \
+	"		float half_way = max(dot(n, normalize(light + to_eye)), 0.0);\n"                        \
+	"		scattered += strength.y * slope;\n"                                                     \
+	"		shine = strength.z * pow(half_way, strength.w);\n"                                      \
+	"	}\n"                                                                                     \
+	"	return srgb(color.rgb * scattered + shine);\n"                                           \
+	"}\n"
+
+/*
+ * look: 0 lit color, 1 map of values. The values of a map stand at the corners of its cells, the last
+ * row of the texture being the first v; between them is their mean, but where one is missing the nearest.
  */
 static const char surface_fragment[] =
         "#version 330 core\n"
         "in vec3 place, across;\n"
         "in vec2 uv;\n"
-        "uniform vec4 eye, color, nothing;\n"
-        "uniform vec3 light, fill, sky, below, above;\n"
-        "uniform vec4 strength;\n" /* ambient, diffuse, highlight, its sharpness */
+        "uniform vec4 nothing;\n"
+        "uniform vec3 below, above;\n"
         "uniform int look;\n"
         "uniform sampler2D values, colors;\n"
         "uniform vec4 range;\n" /* lo, hi after compression, knee or 0, place of zero or -1 */
         "uniform ivec2 grid;\n"
         "uniform float scale;\n" /* device pixels a logical pixel */
-        "out vec4 result;\n"
-        "vec3 srgb(vec3 l)\n"
-        "{\n"
-        "	l = clamp(l, 0.0, 1.0);\n"
-        "	return mix(12.92 * l, 1.055 * pow(l, vec3(1.0 / 2.4)) - 0.055,\n"
-        "	           step(0.0031308, l));\n"
-        "}\n"
-        "float value_at(ivec2 at)\n"
+        "out vec4 result;\n" LIGHTING "float value_at(ivec2 at)\n"
         "{\n"
         "	return texelFetch(values, ivec2(at.x, grid.y - 1 - at.y), 0).r;\n"
         "}\n"
@@ -79,25 +102,39 @@ static const char surface_fragment[] =
         "void main()\n"
         "{\n"
         "	vec3 n = normalize(across);\n"
-        "	vec3 to_eye = normalize(eye.xyz - eye.w * place);\n"
+        "	vec3 to_eye = seen_from(place);\n"
         "	if (dot(n, to_eye) < 0.0)\n"
         "		n = -n;\n"
-        "	float facing = dot(n, to_eye);\n"
         "	if (look == 1) {\n"
-        "		float rim = 1.0 - facing;\n"
+        "		float rim = 1.0 - dot(n, to_eye);\n"
         "		result = vec4(mapped(value()) * (1.0 - 0.14 * rim * rim), 1.0);\n"
         "		return;\n"
         "	}\n"
-        "	float scattered = strength.x * (0.7 + 0.3 * dot(n, sky)) * (0.75 + 0.25 * facing);\n"
-        "	scattered += 0.4 * max(dot(n, fill), 0.0);\n"
-        "	float slope = dot(n, light), shine = 0.0;\n"
-        "	if (slope > 0.0) {\n"
-        "		float half_way = max(dot(n, normalize(light + to_eye)), 0.0);\n"
-        "		scattered += strength.y * slope;\n"
-        "		shine = strength.z * pow(half_way, strength.w);\n"
-        "	}\n"
-        "	result = vec4(srgb(color.rgb * scattered + shine), color.a);\n"
+        "	result = vec4(lit(n, to_eye), color.a);\n"
         "}\n";
+
+/* The same where triangles are as small as pixels: lit at their corners. */
+static const char quick_vertex[] = "#version 330 core\n"
+                                   "layout(location = 0) in vec3 position;\n"
+                                   "layout(location = 1) in vec3 normal;\n"
+                                   "uniform mat4 matrix;\n"
+                                   "uniform float bias;\n"
+                                   "noperspective out vec3 shade;\n" LIGHTING "void main()\n"
+                                   "{\n"
+                                   "	vec3 to_eye = seen_from(position);\n"
+                                   "	vec3 n = dot(normal, to_eye) < 0.0 ? -normal : normal;\n"
+                                   "	shade = lit(n, to_eye);\n"
+                                   "	gl_Position = matrix * vec4(position, 1.0);\n"
+                                   "	gl_Position.z += bias * gl_Position.w;\n"
+                                   "}\n";
+
+static const char quick_fragment[] = "#version 330 core\n"
+                                     "noperspective in vec3 shade;\n"
+                                     "out vec4 result;\n"
+                                     "void main()\n"
+                                     "{\n"
+                                     "	result = vec4(shade, 1.0);\n"
+                                     "}\n";
 
 /*
  * A piece of a polyline is one instance, a quadrilateral of four corners: attributes 0 to 3 are the
@@ -205,6 +242,62 @@ static const char line_fragment[] =
         "	result = vec4(color.rgb, color.a * shown);\n"
         "}\n";
 
+/*
+ * Lines while something is dragged: solid, and neighbours share the corners between them. The vertices
+ * of a polyline stand twice, for its left and its right. Ends are cut off straight.
+ */
+static const char ribbon_vertex[] =
+        "#version 330 core\n"
+        "layout(location = 0) in vec3 before;\n"
+        "layout(location = 1) in vec3 place;\n"
+        "layout(location = 2) in vec3 behind;\n"
+        "uniform mat4 matrix;\n"
+        "uniform vec2 viewport;\n"
+        "uniform float width, bias;\n"
+        "noperspective out float across;\n"
+        "vec4 before_eye(vec4 p, vec4 q)\n" /* p, moved towards q until it is before the eye */
+        "{\n"
+        "	float low = 1e-6 * abs(q.w);\n"
+        "	return p.w > low ? p : mix(p, q, (low - p.w) / (q.w - p.w));\n"
+        "}\n"
+        "vec2 pixel(vec4 p)\n"
+        "{\n"
+        "	return 0.5 * viewport * p.xy / p.w;\n"
+        "}\n"
+        "vec2 direction(vec2 d, vec2 otherwise)\n"
+        "{\n"
+        "	float l = length(d);\n"
+        "	return l > 1e-4 ? d / l : otherwise;\n"
+        "}\n"
+        "void main()\n"
+        "{\n"
+        "	vec4 x = matrix * vec4(before, 1.0), y = matrix * vec4(behind, 1.0);\n"
+        "	gl_Position = matrix * vec4(place, 1.0);\n"
+        "	vec4 a = before_eye(gl_Position, y.w > x.w ? y : x);\n"
+        "	vec2 p = pixel(a);\n"
+        "	vec2 come = direction(p - pixel(before_eye(x, a)), vec2(0.0));\n"
+        "	vec2 go = direction(pixel(before_eye(y, a)) - p, come);\n"
+        "	vec2 mitre = direction(come + go, go);\n"
+        "	vec2 normal = vec2(-mitre.y, mitre.x);\n"
+        "	float side = (gl_VertexID & 1) == 0 ? -0.5 : 0.5;\n"
+        "	across = side * (width + 1.0);\n"
+        "	vec2 offset = across / max(dot(mitre, go), 0.5) * normal;\n"
+        "	gl_Position.xy += offset * 2.0 / viewport * gl_Position.w;\n"
+        "	gl_Position.z -= bias * gl_Position.w;\n"
+        "}\n";
+
+static const char ribbon_fragment[] =
+        "#version 330 core\n"
+        "noperspective in float across;\n"
+        "uniform vec4 color;\n"
+        "uniform float width;\n"
+        "out vec4 result;\n"
+        "void main()\n"
+        "{\n"
+        "	float shown = clamp(0.5 * width + 0.5 - abs(across), 0.0, 1.0);\n"
+        "	result = vec4(color.rgb, color.a * shown * min(width, 1.0));\n"
+        "}\n";
+
 /* Squares and discs of a size in pixels at points in space. */
 static const char sprite_vertex[] =
         "#version 330 core\n"
@@ -272,7 +365,9 @@ static const char plate_fragment[] = "#version 330 core\n"
 
 const char *const shader_source[N_PROGRAMS][2] = {
 	[PROGRAM_SURFACE] = { surface_vertex, surface_fragment },
+	[PROGRAM_QUICK] = { quick_vertex, quick_fragment },
 	[PROGRAM_LINE] = { line_vertex, line_fragment },
+	[PROGRAM_RIBBON] = { ribbon_vertex, ribbon_fragment },
 	[PROGRAM_SPRITE] = { sprite_vertex, sprite_fragment },
 	[PROGRAM_PLATE] = { plate_vertex, plate_fragment },
 };

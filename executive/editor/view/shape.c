@@ -32,7 +32,7 @@ static void shape_destroy(struct shape *x)
 	}
 	for (int k = 0; k < N_MOVED_LINES; k++) {
 		poly_finish(&x->moved_poly[k]);
-		gpu_poly_finish(&x->moved_lines[k]);
+		gpu_ribbon_finish(&x->moved_lines[k]);
 	}
 	free(x);
 }
@@ -313,9 +313,9 @@ enum status shape_make_moved_lines(struct shape *x, double tolerance)
 		return ST_OK;
 	for (int k = 0; k < N_MOVED_LINES; k++) {
 		poly_thin(&x->moved_poly[k], &x->poly[k], tolerance);
-		if (x->moved_poly[k].failed)
+		if (x->moved_poly[k].failed ||
+		    gpu_ribbon_load(&x->moved_lines[k], &x->moved_poly[k]) != ST_OK)
 			st = ST_RESOURCE;
-		gpu_poly_load(&x->moved_lines[k], &x->moved_poly[k]);
 	}
 	x->moved_tolerance = tolerance;
 	return st;

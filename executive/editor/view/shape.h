@@ -44,7 +44,7 @@ struct shape {
 	struct gpu_poly lines[N_SHAPE_LINES];
 	struct poly
 	        moved_poly[N_MOVED_LINES]; /* what is drawn of them while something is dragged */
-	struct gpu_poly moved_lines[N_MOVED_LINES];
+	struct gpu_ribbon moved_lines[N_MOVED_LINES];
 	double moved_tolerance;  /* of these; 0: none yet */
 	double tolerance;        /* of the lines; 0: none yet */
 	struct display made_for; /* what the lines were made for */

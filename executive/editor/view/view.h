@@ -48,6 +48,9 @@ void view_destroy(struct view *v);
 enum status view_draw(struct view *v, const struct world *w, const struct view_state *s, int x,
                       int y, int width, int height, bool *more, const struct report *r);
 
+/* Triangles of surfaces in what was drawn last; lines are not counted. */
+int view_triangles(const struct view *v);
+
 /* The key of the map that was drawn last; false: there was none. Its unit and bar are the caller's. */
 bool view_key(const struct view *v, struct key *out);
 

@@ -91,6 +91,7 @@ struct view {
 	GLuint colors;  /* the color map as a texture */
 	struct key key; /* what is shown now */
 	bool has_key;
+	int triangles;   /* of surfaces, drawn last */
 	uint64_t key_of; /* what the key was found from */
 };
 
