@@ -6,6 +6,7 @@
 enum {
 	MOVING_TRIANGLES = 100000, /* over all, while something is dragged */
 	FINE_TRIANGLES = 600000,
+	FLUSHED = 16384, /* a driver begins with so many while more come */
 };
 static const double chord_px = 0.2;      /* of triangles from their surface, device px */
 static const double line_px = 0.1;       /* of chords from their curve */
@@ -108,6 +109,14 @@ static bool is_small(const struct drawing *d, const struct shape *x, const struc
 	return across * across <= small_triangle * m->triangles;
 }
 
+static void count_triangles(struct view *v, int n)
+{
+	const int before = v->triangles / FLUSHED;
+	v->triangles += n;
+	if (v->triangles / FLUSHED > before)
+		glFlush();
+}
+
 static void draw_surface(struct drawing *d, const struct Ful *f, struct shape *x)
 {
 	const struct shape_mesh *m = d->fine ? finest(x) : &x->coarse;
@@ -138,7 +147,7 @@ static void draw_surface(struct drawing *d, const struct Ful *f, struct shape *x
 	glBindVertexArray(m->gpu.array);
 	glUniform1f(u[UNIFORM_BIAS], 0);
 	glDrawElements(GL_TRIANGLES, m->gpu.n, GL_UNSIGNED_INT, NULL);
-	d->view->triangles += m->triangles;
+	count_triangles(d->view, m->triangles);
 	/* Chords of neighbours part by less than a px: borders are as wide, a little behind. */
 	glUniform1f(u[UNIFORM_BIAS], (float)(border_back * d->frame.pixel_depth));
 	glDrawElements(GL_LINES, m->gpu.n_border, GL_UNSIGNED_INT,
