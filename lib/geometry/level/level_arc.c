@@ -143,12 +143,21 @@ static void station_between(const struct follower *w, const struct station *a,
 	station_find(w, at, out);
 }
 
+/* Shorter pieces keep a tolerance that is so many times what rounding leaves. */
+#define ROUNDING_TIMES 8
+
+static bool within(double error, double tolerance, double rounding)
+{
+	return error <= tolerance ||
+	       (ROUNDING_TIMES * rounding > tolerance && error <= tolerance + rounding);
+}
+
 /* Good, or as good as rounding allows. */
 static bool good(const struct follower *w, const struct proof *p)
 {
 	const struct level *l = w->t->level;
-	return p->space <= l->tolerance + p->rounding[0] &&
-	       p->uv <= l->tolerance_uv + p->rounding[1];
+	return within(p->space, l->tolerance, p->rounding[0]) &&
+	       within(p->uv, l->tolerance_uv, p->rounding[1]);
 }
 
 static void proof_improve(struct proof *p, const struct proof *by)

@@ -1,0 +1,217 @@
+/* test_level_oblique.c - isophotes next to 90 degrees: known ones, in other forms, and as many as on a grid. */
+#include "arbitrary.h"
+#include "level_check.h"
+#include "level_grid.h"
+
+/* How far from 90 degrees; above 1.15 isophotes are made of squares. */
+static const double away[] = { 1e-6, 1e-3, 0.01, 0.1, 1, -1e-3, -0.1, -1.1, -1.2 };
+enum { N_AWAY = sizeof away / sizeof *away };
+
+/* The cosine of 90 - degrees. */
+static double cosine_beside(double degrees)
+{
+	return sin(degrees * pi / 180);
+}
+
+static struct level_result trace(const struct surface *s, struct vec3 light, double value,
+                                 double tolerance)
+{
+	struct level_result x;
+	assert_int_equal(shape_trace(s, LEVEL_ISOPHOTE, light, value, tolerance, &x, NULL), ST_OK);
+	assert_int_equal(x.n_undecided, 0);
+	assert_true(x.max_error <= tolerance);
+	for (size_t b = 0; b < x.n_branches; b++)
+		check_curves(s, &x.branches[b]);
+	return x;
+}
+
+/* Points of a branch are off the circle about z of that radius and height, and of its like below, by no more than
+ * the bound. */
+static double off_circle(const struct level_branch *b, struct vec3 z, double radius, double height)
+{
+	double most = 0;
+	for (int k = 0; k < 500; k++) {
+		const double t0 = b->space.domain[0], t1 = b->space.domain[1];
+		struct vec3 p = curve_point(&b->space, t0 + (t1 - t0) * (k + 0.37) / 500);
+		const double h = vec3_dot(p, z);
+		const double r = vec3_length(vec3_along(p, -h, z));
+		most = fmax(most, hypot(r - radius, h - height));
+	}
+	return most;
+}
+
+static void test_sphere(void **state)
+{
+	(void)state;
+	const struct vec3 light = vec3_unit(vec3(0.3, -0.2, 0.9));
+	struct surface s = sphere();
+	for (int i = 0; i < N_AWAY; i++)
+		for (int k = 0; k < 2; k++) {
+			const double c = cosine_beside(away[i]), radius = 2.5 * sqrt(1 - c * c);
+			struct level_result x = trace(&s, light, c, k ? 1e-8 : 1e-5);
+			assert_int_equal(x.n_branches, 1);
+			assert_int_equal(x.n_closed, 1);
+			assert_true(fabs(x.length - 2 * pi * radius) < 1e-6);
+			assert_true(off_circle(&x.branches[0], light, radius, 2.5 * c) <=
+			            x.max_error + 1e-14);
+			level_result_finish(&x);
+		}
+	surface_finish(&s);
+}
+
+/* Along the axis: the circles of latitude where the tube's normal has that angle. */
+static void test_torus(void **state)
+{
+	(void)state;
+	const struct vec3 axis = { 0, 0, 1 }, other = { 0.3, 0.2, 0.9 };
+	struct surface s = torus();
+	for (int i = 0; i < N_AWAY; i++) {
+		const double c = cosine_beside(away[i]), inside = sqrt(1 - c * c);
+		struct level_result x = trace(&s, axis, c, 1e-6);
+		assert_int_equal(x.n_branches, 2);
+		assert_int_equal(x.n_closed, 2);
+		for (int b = 0; b < 2; b++) {
+			const bool outer = x.branches[b].length > 6 * pi;
+			const double radius = 3 + (outer ? inside : -inside);
+			assert_true(fabs(x.branches[b].length - 2 * pi * radius) < 1e-5);
+			assert_true(off_circle(&x.branches[b], axis, radius, c) <=
+			            x.branches[b].max_error + 1e-14);
+		}
+		level_result_finish(&x);
+		x = trace(&s, other, c, 1e-6);
+		assert_int_equal(x.n_closed, 2);
+		for (int b = 0; b < 2; b++)
+			check_exact(&s, LEVEL_ISOPHOTE, other, c, &x.branches[b], 1e-6, 60);
+		level_result_finish(&x);
+	}
+	surface_finish(&s);
+}
+
+/* Both ways to make f meet at one angle, on one surface that is made ready for either. */
+static void test_change(void **state)
+{
+	(void)state;
+	struct level_field f = { .kind = LEVEL_ISOPHOTE,
+		                 .direction = vec3(0.8, 0.36, 0.48),
+		                 .value = 0.02 };
+	const struct level_field beyond = { .kind = LEVEL_ISOPHOTE,
+		                            .direction = f.direction,
+		                            .value = 0.02 + 1e-9 };
+	const struct level_field right = { .kind = LEVEL_ISOPHOTE, .direction = f.direction };
+	const int order[2] = { 4, 4 }, n[2] = { 9, 9 };
+	struct surface s = shape_surface(order, n, false, KNOTS_CLAMPED, 3);
+	assert_true(level_oblique(&f));
+	assert_false(level_oblique(&beyond));
+	assert_false(level_oblique(&right));
+	struct count c = count_of(&s, f.kind, f.direction, f.value);
+	assert_true(c.branches > 3);
+	assert_same(c, count_of(&s, f.kind, f.direction, beyond.value));
+	for (int k = 0; k < 3; k++) {
+		struct level *first, *like;
+		struct level_result x;
+		f.value = (const double[]){ 0.5, 0, -0.01 }[k];
+		assert_int_equal(level_create(&first, &s, &f, 1e-5, NULL), ST_OK);
+		assert_int_equal(level_create_like(&like, first, 0.02, NULL), ST_OK);
+		assert_int_equal(shape_trace_level(like, &x, NULL), ST_OK);
+		assert_same(c, (struct count){ x.n_branches, x.n_closed, x.n_undecided, x.length });
+		level_result_finish(&x);
+		level_destroy(like);
+		level_destroy(first);
+	}
+	surface_finish(&s);
+}
+
+static void test_forms(void **state)
+{
+	(void)state;
+	const struct vec3 d = { 0.8, 0.36, 0.48 };
+	const double knots[] = { 0.31, 0.5, 0.5, 0.77 };
+	for (int k = 0; k < 4; k++) {
+		const int order[2] = { 4, 4 }, n[2] = { 8, 8 };
+		const double value = cosine_beside((const double[]){ 0.1, -0.01, 1e-4, 0.9 }[k]);
+		struct surface s = shape_surface(order, n, k % 2, KNOTS_CLAMPED, k + 20), r;
+		struct count c = count_of(&s, LEVEL_ISOPHOTE, d, value);
+		assert_true(c.branches > 1);
+		for (int way = 0; way < 2; way++) {
+			assert_int_equal(surface_insert(&r, &s, way, knots, 4), ST_OK);
+			assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+			surface_finish(&r);
+			assert_int_equal(surface_elevate(&r, &s, way, 1 + k % 2), ST_OK);
+			assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+			surface_finish(&r);
+		}
+		assert_int_equal(surface_copy(&r, &s), ST_OK);
+		surface_reparametrise(&r, 0, -3, 100);
+		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+		/* exchanged, the normal is turned */
+		assert_int_equal(surface_exchange(&r), ST_OK);
+		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, -value));
+		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, vec3_scale(d, -4), value));
+		surface_finish(&r);
+		r = stretched(&s, 3.7);
+		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+		surface_finish(&r);
+		surface_finish(&s);
+	}
+}
+
+static const struct {
+	int order[2], n[2];
+	bool rational;
+	enum shape_knots knots;
+	uint64_t seed;
+	double away[2];
+} grid_cases[] = {
+	{ { 4, 4 }, { 8, 8 }, false, KNOTS_CLAMPED, 1, { 0.1, -0.001 } },
+	{ { 4, 4 }, { 9, 7 }, true, KNOTS_UNEVEN, 2, { 0.01, -0.1 } },
+	{ { 3, 5 }, { 8, 8 }, false, KNOTS_OPEN, 3, { 1e-5, 0.5 } },
+	{ { 3, 4 }, { 7, 7 }, true, KNOTS_CLAMPED, 4, { 1e-3, -1 } },
+	{ { 5, 5 }, { 8, 8 }, true, KNOTS_CLAMPED, 5, { 1e-3, 0.05 } },
+	{ { 4, 5 }, { 9, 8 }, false, KNOTS_DOUBLE, 6, { 0.1, -0.01 } },
+	{ { 7, 6 }, { 7, 7 }, false, KNOTS_CLAMPED, 7, { 0.02, -1e-4 } },
+	{ { 2, 4 }, { 3, 8 }, false, KNOTS_CLAMPED, 8, { 0.1, -0.01 } },
+};
+
+static void test_grid(void **state)
+{
+	(void)state;
+	const struct vec3 light = { 0.8, 0.36, 0.48 };
+	double *f = malloc(sizeof *f * ROW * ROW), *normal = malloc(sizeof *normal * ROW * ROW);
+	int *parent = malloc(sizeof *parent * EDGES);
+	assert_true(normal && f && parent);
+	for (size_t c = 0; c < sizeof grid_cases / sizeof *grid_cases; c++) {
+		struct surface s =
+		        shape_surface(grid_cases[c].order, grid_cases[c].n, grid_cases[c].rational,
+		                      grid_cases[c].knots, grid_cases[c].seed);
+		for (int i = 0; i < ROW * ROW; i++)
+			normal[i] = field_at(&s, LEVEL_ISOPHOTE, light, 0,
+			                     in_range(s.domain[0], (double)(i / ROW) / GRID),
+			                     in_range(s.domain[1], (double)(i % ROW) / GRID));
+		for (int k = 0; k < 2; k++) {
+			const double value = cosine_beside(grid_cases[c].away[k]);
+			for (int i = 0; i < ROW * ROW; i++)
+				f[i] = normal[i] - value;
+			size_t expected = grid_pieces(f, parent);
+			struct count got = count_of(&s, LEVEL_ISOPHOTE, light, value);
+			if (got.branches != expected)
+				print_error("case %zu, %g from 90: %zu pieces, on the grid %zu\n",
+				            c, grid_cases[c].away[k], got.branches, expected);
+			assert_int_equal(got.branches, expected);
+			assert_int_equal(got.undecided, 0);
+		}
+		surface_finish(&s);
+	}
+	free(normal);
+	free(f);
+	free(parent);
+}
+
+int main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(test_sphere), cmocka_unit_test(test_torus),
+		cmocka_unit_test(test_change), cmocka_unit_test(test_forms),
+		cmocka_unit_test(test_grid),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
