@@ -8,8 +8,8 @@
 
 /* The state of the worker. */
 struct contour_state {
+	struct level_work level; /* first, as level_work.h asks */
 	struct contour_sets sets;
-	struct level_work level;
 	double tolerance;
 	double *values;                   /* owned, of all sets */
 	const char **kinds;               /* owned array */

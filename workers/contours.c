@@ -82,18 +82,6 @@ static enum status contours_begin(struct work *w)
 	return levels_begin(w, s);
 }
 
-static size_t contours_units(const struct work *w)
-{
-	const struct contour_state *s = w->state;
-	return level_work_units(&s->level);
-}
-
-static enum status contours_unit(struct work *w, size_t unit)
-{
-	const struct contour_state *s = w->state;
-	return level_work_unit(&s->level, w, unit);
-}
-
 static enum status sections_make(struct work *w, struct contour_state *s)
 {
 	const struct section_lid lid = { { 0, 0, 1 },
@@ -160,8 +148,8 @@ const struct worker worker = {
 	.params = contours_params,
 	.outputs = contours_outputs,
 	.begin = contours_begin,
-	.units = contours_units,
-	.unit = contours_unit,
+	.units = level_work_units,
+	.unit = level_work_unit,
 	.finish = contours_finish_work,
 	.end = contours_end,
 };

@@ -35,11 +35,11 @@ static const struct param isocurvature_params[] = {
 };
 
 struct isocurvature {
+	struct level_work level; /* first, as level_work.h asks */
 	enum quantity quantity;
 	int n;
 	double *values; /* owned */
 	double tolerance;
-	struct level_work level;
 };
 
 static void isocurvature_end(struct work *w)
@@ -106,18 +106,6 @@ static enum status isocurvature_begin(struct work *w)
 	return st;
 }
 
-static size_t isocurvature_units(const struct work *w)
-{
-	const struct isocurvature *s = w->state;
-	return level_work_units(&s->level);
-}
-
-static enum status isocurvature_unit(struct work *w, size_t unit)
-{
-	const struct isocurvature *s = w->state;
-	return level_work_unit(&s->level, w, unit);
-}
-
 static enum status isocurvature_finish(struct work *w)
 {
 	struct isocurvature *s = w->state;
@@ -162,8 +150,8 @@ const struct worker worker = {
 	.params = isocurvature_params,
 	.outputs = isocurvature_outputs,
 	.begin = isocurvature_begin,
-	.units = isocurvature_units,
-	.unit = isocurvature_unit,
+	.units = level_work_units,
+	.unit = level_work_unit,
 	.finish = isocurvature_finish,
 	.end = isocurvature_end,
 };

@@ -42,10 +42,10 @@ static const struct param isophotes_params[] = {
 };
 
 struct isophotes {
+	struct level_work level; /* first, as level_work.h asks */
 	int n_angles;
 	double *angles; /* owned, degrees */
 	double tolerance;
-	struct level_work level;
 };
 
 static void isophotes_end(struct work *w)
@@ -109,18 +109,6 @@ static enum status isophotes_begin(struct work *w)
 	return st;
 }
 
-static size_t isophotes_units(const struct work *w)
-{
-	const struct isophotes *s = w->state;
-	return level_work_units(&s->level);
-}
-
-static enum status isophotes_unit(struct work *w, size_t unit)
-{
-	const struct isophotes *s = w->state;
-	return level_work_unit(&s->level, w, unit);
-}
-
 static enum status isophotes_finish(struct work *w)
 {
 	struct isophotes *s = w->state;
@@ -159,8 +147,8 @@ const struct worker worker = {
 	.params = isophotes_params,
 	.outputs = isophotes_outputs,
 	.begin = isophotes_begin,
-	.units = isophotes_units,
-	.unit = isophotes_unit,
+	.units = level_work_units,
+	.unit = level_work_unit,
 	.finish = isophotes_finish,
 	.end = isophotes_end,
 };

@@ -153,8 +153,9 @@ enum status level_work_init(struct level_work *l, const struct work *w,
 	return st;
 }
 
-size_t level_work_units(const struct level_work *l)
+size_t level_work_units(const struct work *w)
 {
+	const struct level_work *l = w->state;
 	return l->first[l->n_surfaces] * (size_t)l->n;
 }
 
@@ -163,8 +164,9 @@ static bool stop_asked(void *work)
 	return work_cancelled(work);
 }
 
-enum status level_work_unit(const struct level_work *l, struct work *w, size_t unit)
+enum status level_work_unit(struct work *w, size_t unit)
 {
+	const struct level_work *l = w->state;
 	const size_t each = l->first[l->n_surfaces], place = unit % each;
 	int s = 0;
 	while (place >= l->first[s + 1])

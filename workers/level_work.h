@@ -28,10 +28,12 @@ enum status level_work_init(struct level_work *l, const struct work *w,
                             double tolerance);
 void level_work_finish(struct level_work *l); /* a zeroed one is fine */
 
-size_t level_work_units(const struct level_work *l);
-
-/* Thread: any. Errors: ST_CANCELLED, ST_RESOURCE. */
-enum status level_work_unit(const struct level_work *l, struct work *w, size_t unit);
+/*
+ * What `units` and `unit` of struct worker are where w->state begins with a struct level_work.
+ * Thread: any. Errors: ST_CANCELLED, ST_RESOURCE.
+ */
+size_t level_work_units(const struct work *w);
+enum status level_work_unit(struct work *w, size_t unit);
 
 /* All units are there: fill the results, join them over the surfaces' borders. */
 enum status level_work_join(struct level_work *l, struct work *w);

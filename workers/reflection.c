@@ -66,12 +66,12 @@ static const struct param reflection_params[] = {
 };
 
 struct state {
+	struct level_work level; /* first, as level_work.h asks */
 	enum kind kind;
 	int n;
 	double *numbers; /* owned: 1, 2, ... of the light lines */
 	double tolerance;
 	struct box box;
-	struct level_work level;
 };
 
 static void reflection_end(struct work *w)
@@ -211,18 +211,6 @@ static enum status reflection_begin(struct work *w)
 	return st == ST_OK ? levels_begin(w, s) : st;
 }
 
-static size_t reflection_units(const struct work *w)
-{
-	const struct state *s = w->state;
-	return level_work_units(&s->level);
-}
-
-static enum status reflection_unit(struct work *w, size_t unit)
-{
-	const struct state *s = w->state;
-	return level_work_unit(&s->level, w, unit);
-}
-
 static enum status reflection_finish(struct work *w)
 {
 	struct state *s = w->state;
@@ -261,8 +249,8 @@ const struct worker worker = {
 	.params = reflection_params,
 	.outputs = reflection_outputs,
 	.begin = reflection_begin,
-	.units = reflection_units,
-	.unit = reflection_unit,
+	.units = level_work_units,
+	.unit = level_work_unit,
 	.finish = reflection_finish,
 	.end = reflection_end,
 };

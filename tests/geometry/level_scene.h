@@ -8,6 +8,26 @@
 
 enum { FACES_MAX = 600 };
 
+/* One of each kind and a slanting plane, all with curves on shape_wavy. */
+static const struct level_field every_field[] = {
+	{ .kind = LEVEL_PLANE, .direction = { 0, 0, 1 }, .value = 0.31 },
+	{ .kind = LEVEL_PLANE, .direction = { 0.48, 0.6, 0.64 }, .value = 5.1 },
+	{ .kind = LEVEL_CYLINDER, .direction = { 1, 0.1, 0 }, .point = { 0, 5, 0 }, .value = 0.8 },
+	{ .kind = LEVEL_ISOPHOTE, .direction = { 0.1, 0.2, 1 }, .value = 0.8 },
+	{ .kind = LEVEL_SILHOUETTE, .direction = { 0.8, 0.36, 0.48 } },
+	{ .kind = LEVEL_EYE, .eye = { 30, 18, 14 } },
+	{ .kind = LEVEL_HIGHLIGHT,
+	  .direction = { 0.2, 1, 0 },
+	  .point = { 4, 0, 10 },
+	  .value = 0.2 },
+	{ .kind = LEVEL_REFLECTION,
+	  .direction = { 0, 1, 0.1 },
+	  .point = { 4, 0, 20 },
+	  .eye = { 30, 18, 14 } },
+	{ .kind = LEVEL_CURVATURE, .quantity = QUANTITY_MEAN, .value = 0.1 },
+};
+enum { N_FIELDS = sizeof every_field / sizeof *every_field };
+
 /* Faces with results of one field, joined. */
 struct scene {
 	struct surface faces[FACES_MAX];

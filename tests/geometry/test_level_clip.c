@@ -219,23 +219,6 @@ static void trim_add_flower(struct trim *t, bool outer, double u, double v, doub
 	trim_close(t, l);
 }
 
-static const struct level_field fields[] = {
-	{ .kind = LEVEL_PLANE, .direction = { 0, 0, 1 }, .value = 0.31 },
-	{ .kind = LEVEL_CYLINDER, .direction = { 1, 0.1, 0 }, .point = { 0, 5, 0 }, .value = 0.8 },
-	{ .kind = LEVEL_ISOPHOTE, .direction = { 0.1, 0.2, 1 }, .value = 0.8 },
-	{ .kind = LEVEL_SILHOUETTE, .direction = { 0.8, 0.36, 0.48 } },
-	{ .kind = LEVEL_EYE, .eye = { 30, 18, 14 } },
-	{ .kind = LEVEL_HIGHLIGHT,
-	  .direction = { 0.2, 1, 0 },
-	  .point = { 4, 0, 10 },
-	  .value = 0.2 },
-	{ .kind = LEVEL_REFLECTION,
-	  .direction = { 0, 1, 0.1 },
-	  .point = { 4, 0, 20 },
-	  .eye = { 30, 18, 14 } },
-	{ .kind = LEVEL_CURVATURE, .quantity = QUANTITY_MEAN, .value = 0.1 },
-};
-
 /* As long as what dense samples of the whole curves have inside; in as many parts. */
 static void test_samples(void **state)
 {
@@ -249,11 +232,11 @@ static void test_samples(void **state)
 	trim_add_flower(&t, false, 0.4, 0.45, 0.12, 0.03, 5);
 	trim_add_ellipse(&t, false, 0.7, 0.6, 0.1, 0.05, 0.4);
 	assert_int_equal(trim_test_create(&test, &t, &s), ST_OK);
-	for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
+	for (int i = 0; i < N_FIELDS; i++) {
 		struct level_result x;
 		double length = 0;
 		size_t parts = 0, closed = 0;
-		trace(&s, &fields[i], &x);
+		trace(&s, &every_field[i], &x);
 		for (size_t b = 0; b < x.n_branches; b++) {
 			const struct level_branch *one = &x.branches[b];
 			bool last = false, first = false;
@@ -323,9 +306,9 @@ static void test_fitting(void **state)
 		trim_add_flower(&two.trims[i], i == 0, 0.5, 0.5, 0.35, 0.1, 7);
 	}
 	reparametrise(&two.faces[1], &two.trims[1]);
-	for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
-		scene_trace(&one, &fields[i], tolerance, 1e-4);
-		scene_trace(&two, &fields[i], tolerance, 1e-4);
+	for (int i = 0; i < N_FIELDS; i++) {
+		scene_trace(&one, &every_field[i], tolerance, 1e-4);
+		scene_trace(&two, &every_field[i], tolerance, 1e-4);
 		same_chains(&one, &two);
 		assert_true(two.chains.joins > 0);
 		assert_int_equal(two.chains.creases, 0);

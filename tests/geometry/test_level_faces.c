@@ -1,25 +1,6 @@
 /* test_level_faces.c - curves over several faces: the same as on the whole surface, however it is cut. */
 #include "level_scene.h"
 
-static const struct level_field fields[] = {
-	{ .kind = LEVEL_PLANE, .direction = { 0, 0, 1 }, .value = 0.31 },
-	{ .kind = LEVEL_PLANE, .direction = { 0.48, 0.6, 0.64 }, .value = 5.1 },
-	{ .kind = LEVEL_CYLINDER, .direction = { 1, 0.1, 0 }, .point = { 0, 5, 0 }, .value = 0.8 },
-	{ .kind = LEVEL_ISOPHOTE, .direction = { 0.1, 0.2, 1 }, .value = 0.8 },
-	{ .kind = LEVEL_SILHOUETTE, .direction = { 0.8, 0.36, 0.48 } },
-	{ .kind = LEVEL_EYE, .eye = { 30, 18, 14 } },
-	{ .kind = LEVEL_HIGHLIGHT,
-	  .direction = { 0.2, 1, 0 },
-	  .point = { 4, 0, 10 },
-	  .value = 0.2 },
-	{ .kind = LEVEL_REFLECTION,
-	  .direction = { 0, 1, 0.1 },
-	  .point = { 4, 0, 20 },
-	  .eye = { 30, 18, 14 } },
-	{ .kind = LEVEL_CURVATURE, .quantity = QUANTITY_MEAN, .value = 0.1 },
-};
-enum { N_FIELDS = sizeof fields / sizeof *fields };
-
 static void test_whole(void **state)
 {
 	(void)state;
@@ -31,7 +12,7 @@ static void test_whole(void **state)
 	scene_cut(&one, &s, all, 1, all, 1, false);
 	scene_cut(&many, &s, u, 4, v, 3, true);
 	for (int i = 0; i < N_FIELDS; i++) {
-		compare(&one, &many, &fields[i]);
+		compare(&one, &many, &every_field[i]);
 	}
 	scene_finish(&one);
 	scene_finish(&many);
@@ -149,8 +130,8 @@ static void test_many(void **state)
 	scene_cut(&one, &s, all, 1, all, 1, false);
 	scene_cut(&many, &s, u, 25, v, 20, true);
 	const struct level_field zero = { .kind = LEVEL_PLANE, .direction = { 0, 0, 1 } };
-	compare(&one, &many, &fields[0]);
-	compare(&one, &many, &fields[3]);
+	compare(&one, &many, &every_field[0]);
+	compare(&one, &many, &every_field[3]);
 	/* 25 crossings of four, 20 of three on the border, 4 of two in the corners; all but those two
 	 * lie in faces or on their borders */
 	compare(&one, &many, &zero);
