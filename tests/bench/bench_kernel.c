@@ -14,16 +14,6 @@
 enum { LINES = 1000, RANDOM = 200000, ROUNDS = 7, FEW_ROUNDS = 3, CHECK = 201, SIDES = 3 };
 enum { GRID_SIDE = 100, CURVE_POINTS = 10000 };
 
-static const struct peer *const peers[] = {
-#ifdef HAVE_SISL
-	&peer_sisl,
-#endif
-#ifdef HAVE_OCCT
-	&peer_occt,
-#endif
-	NULL, /* ends the list */
-};
-
 /* One shape, ours or handed to a peer. */
 struct job {
 	const struct peer *peer; /* NULL: ours */

@@ -11,121 +11,47 @@
 
 enum { ROUNDS = 5, SIDES = 4 };
 
-static const struct peer *const peers[] = {
-#ifdef HAVE_SISL
-	&peer_sisl,
-#endif
-#ifdef HAVE_OCCT
-	&peer_occt,
-#endif
-	NULL, /* ends the list */
-};
-
 /* Pieces were counted elsewhere by changes of sign on a grid. */
 static const struct row {
 	const char *row, *what;
-	enum level_kind kind;
+	struct level_field field; /* of the first value */
 	enum peer_field_kind theirs;
-	struct vec3 direction, point;
-	double value, tolerance;
-	int many; /* values value + k step */
-	double step;
+	int many; /* values that are `step` apart */
+	double step, tolerance;
 	double target; /* ms */
 	int known;
 } rows[] = {
-	{ "10",
-	  "50 planes, 1e-6",
-	  LEVEL_PLANE,
-	  PEER_PLANE,
-	  { 0, 0, 1 },
-	  { 0, 0, 0 },
-	  -0.784,
-	  1e-6,
-	  50,
-	  0.032,
-	  30,
-	  900 },
-	{ "11",
-	  "50 planes, 1e-4",
-	  LEVEL_PLANE,
-	  PEER_PLANE,
-	  { 0, 0, 1 },
-	  { 0, 0, 0 },
-	  -0.784,
-	  1e-4,
-	  50,
-	  0.032,
-	  18,
-	  900 },
-	{ "12",
-	  "10 cylinders, 1e-6",
-	  LEVEL_CYLINDER,
+/* clang-format off */
+	{ "10", "50 planes, 1e-6",
+	  { .kind = LEVEL_PLANE, .direction = { 0, 0, 1 }, .value = -0.784 }, PEER_PLANE,
+	  .many = 50, .step = 0.032, .tolerance = 1e-6, .target = 30, .known = 900 },
+	{ "11", "50 planes, 1e-4",
+	  { .kind = LEVEL_PLANE, .direction = { 0, 0, 1 }, .value = -0.784 }, PEER_PLANE,
+	  .many = 50, .step = 0.032, .tolerance = 1e-4, .target = 18, .known = 900 },
+	{ "12", "10 cylinders, 1e-6",
+	  { .kind = LEVEL_CYLINDER, .direction = { 1, 0, 0 }, .point = { 0, 5, 0 }, .value = 0.3 },
 	  PEER_CYLINDER,
-	  { 1, 0, 0 },
-	  { 0, 5, 0 },
-	  0.3,
-	  1e-6,
-	  10,
-	  0.45,
-	  6,
-	  20 },
-	{ "14",
-	  "silhouette, 1e-6",
-	  LEVEL_SILHOUETTE,
-	  PEER_SILHOUETTE,
-	  { 0.8, 0.36, 0.48 },
-	  { 0, 0, 0 },
-	  0,
-	  1e-6,
-	  1,
-	  0,
-	  4,
-	  12 },
-	{ "14",
-	  "silhouette from an eye, 1e-6",
-	  LEVEL_EYE,
-	  PEER_EYE,
-	  { 0, 0, 1 },
-	  { 30, 18, 14 },
-	  0,
-	  1e-6,
-	  1,
-	  0,
-	  7,
-	  9 },
-	{ "15",
-	  "isophote 35 degrees, 1e-6",
-	  LEVEL_ISOPHOTE,
-	  PEER_ISOPHOTE,
-	  { 0, 0, 1 },
-	  { 0, 0, 0 },
-	  0.81915204428899178,
-	  1e-6,
-	  1,
-	  0,
-	  10,
-	  85 },
-	{ "15",
-	  "isophote 50 degrees, 1e-6",
-	  LEVEL_ISOPHOTE,
-	  PEER_ISOPHOTE,
-	  { 0, 0, 1 },
-	  { 0, 0, 0 },
-	  0.64278760968653933,
-	  1e-6,
-	  1,
-	  0,
-	  15,
-	  84 },
+	  .many = 10, .step = 0.45, .tolerance = 1e-6, .target = 6, .known = 20 },
+	{ "14", "silhouette, 1e-6",
+	  { .kind = LEVEL_SILHOUETTE, .direction = { 0.8, 0.36, 0.48 } }, PEER_SILHOUETTE,
+	  .many = 1, .tolerance = 1e-6, .target = 4, .known = 12 },
+	{ "14", "silhouette from an eye, 1e-6",
+	  { .kind = LEVEL_EYE, .direction = { 0, 0, 1 }, .eye = { 30, 18, 14 } }, PEER_EYE,
+	  .many = 1, .tolerance = 1e-6, .target = 7, .known = 9 },
+	{ "15", "isophote 35 degrees, 1e-6",
+	  { .kind = LEVEL_ISOPHOTE, .direction = { 0, 0, 1 }, .value = 0.81915204428899178 },
+	  PEER_ISOPHOTE, .many = 1, .tolerance = 1e-6, .target = 10, .known = 85 },
+	{ "15", "isophote 50 degrees, 1e-6",
+	  { .kind = LEVEL_ISOPHOTE, .direction = { 0, 0, 1 }, .value = 0.64278760968653933 },
+	  PEER_ISOPHOTE, .many = 1, .tolerance = 1e-6, .target = 15, .known = 84 },
+/* clang-format on */
 };
 
 static struct level_field field_of(const struct row *row, int k)
 {
-	return (struct level_field){ .kind = row->kind,
-		                     .direction = row->direction,
-		                     .value = row->value + k * row->step,
-		                     .point = row->point,
-		                     .eye = row->point };
+	struct level_field field = row->field;
+	field.value += k * row->step;
+	return field;
 }
 
 /* One way to the curves of a row: ours, a peer's, or a mesh. */
@@ -194,10 +120,11 @@ static int run_ours(struct job *j)
 static int run_peer(struct job *j)
 {
 	const struct row *row = j->row;
+	const struct vec3 d = row->field.direction;
+	const struct vec3 p = row->theirs == PEER_EYE ? row->field.eye : row->field.point;
 	struct peer_field f = { .kind = row->theirs,
-		                .direction = { row->direction.x, row->direction.y,
-		                               row->direction.z },
-		                .point = { row->point.x, row->point.y, row->point.z },
+		                .direction = { d.x, d.y, d.z },
+		                .point = { p.x, p.y, p.z },
 		                .tolerance = row->tolerance };
 	int found = 0;
 	for (int k = 0; k < row->many; k++) {

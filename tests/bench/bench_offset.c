@@ -15,16 +15,6 @@ enum { SIDES = BENCH_PEERS + 1, ROUNDS = 7, CHECK = 97 };
 
 static const double distance = 0.1, tolerance = 1e-3;
 
-static const struct peer *const peers[] = {
-#ifdef HAVE_SISL
-	&peer_sisl,
-#endif
-#ifdef HAVE_OCCT
-	&peer_occt,
-#endif
-	NULL, /* ends the list */
-};
-
 /* One side's result, kept from the last round. */
 struct job {
 	const struct peer *peer; /* NULL: ours */

@@ -66,6 +66,9 @@ extern const struct peer peer_sisl;
 extern const struct peer peer_occt;
 #endif
 
+/* Those that are installed, at most BENCH_PEERS; NULL ends the list. */
+extern const struct peer *const peers[];
+
 #ifdef __cplusplus
 }
 #endif
