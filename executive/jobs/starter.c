@@ -3,7 +3,8 @@
  *	batten-launch PARENT NICENESS BYTES UMASK WORKER [WORD...]
  *
  * PARENT is the service's process, BYTES the limit on the worker's private memory (0: none), UMASK
- * octal (-: the service's own): the files are those of who asked for them. The process keeps its number and its group. It stands alone so that it starts at once.
+ * octal (-: the service's own): the files are those of who asked for them. The process keeps its
+ * number and its group. It stands alone so that it starts at once.
  */
 #include <errno.h>
 #include <signal.h>
@@ -15,18 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* A build that checks addresses reserves more memory than there is: no limit could hold it. */
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define CHECKED_BUILD 1
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__)
-#define CHECKED_BUILD 1
-#endif
-#ifndef CHECKED_BUILD
-#define CHECKED_BUILD 0
-#endif
+#include "checked.h"
 
 enum { STATUS_USAGE = 125, STATUS_NOT_STARTED = 126 };
 

@@ -270,6 +270,22 @@ void fake_finish(struct fake *f)
 	text_finish(&f->seen);
 }
 
+int fake_new(void **state)
+{
+	struct fake *f = malloc(sizeof *f);
+	*state = f;
+	if (f)
+		fake_init(f);
+	return !f;
+}
+
+int fake_gone(void **state)
+{
+	fake_finish(*state);
+	free(*state);
+	return 0;
+}
+
 void fake_restart(struct fake *f)
 {
 	queue_destroy(f->q);

@@ -34,6 +34,9 @@ struct fake {
 /* Two jobs at once, graces of 2, 3, 10 and 5 s. The queue is made and loaded. */
 void fake_init(struct fake *f);
 void fake_finish(struct fake *f);
+/* Of cmocka: *state is a fake; gone again. */
+int fake_new(void **state);
+int fake_gone(void **state);
 
 /* A crash: the queue is gone, the ledger stays, another begins. */
 void fake_restart(struct fake *f);

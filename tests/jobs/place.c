@@ -93,6 +93,27 @@ void place_init(struct place *p, const char *environment)
 	place_connect(p);
 }
 
+int place_new(void **state, const char *environment)
+{
+	struct place *p = malloc(sizeof *p);
+	*state = p;
+	if (p)
+		place_init(p, environment);
+	return !p;
+}
+
+int place_of_two_jobs(void **state)
+{
+	return place_new(state, "BATTEN_JOBS=2");
+}
+
+int place_gone(void **state)
+{
+	place_finish(*state);
+	free(*state);
+	return 0;
+}
+
 void place_connect(struct place *p)
 {
 	struct ucred peer;

@@ -18,6 +18,10 @@ struct place {
 /* Settings are given as "KEY=VALUE" pairs by blanks: BATTEN_IDLE=1 ... Connects, starting a service. */
 void place_init(struct place *p, const char *environment);
 void place_finish(struct place *p);
+/* Of cmocka: *state is a place with those settings; with two jobs at once; gone again. */
+int place_new(void **state, const char *environment);
+int place_of_two_jobs(void **state);
+int place_gone(void **state);
 void place_connect(struct place *p);
 /* The service dies at once; its socket stays. */
 void place_crash(struct place *p);

@@ -23,18 +23,7 @@ static const char quick[] = "BATTEN_CANCEL_GRACE=0.1 BATTEN_TERM_GRACE=0.1 BATTE
 
 static int set_up(void **state)
 {
-	struct place *p = malloc(sizeof *p);
-	*state = p;
-	if (p)
-		place_init(p, quick);
-	return !p;
-}
-
-static int tear_down(void **state)
-{
-	place_finish(*state);
-	free(*state);
-	return 0;
+	return place_new(state, quick);
 }
 
 static void each_fails_with_its_reason(void **state)
@@ -187,7 +176,7 @@ static void a_log_has_its_limits(void **state)
 	assert_int_equal(place_ask(p, MESSAGE_KILL, id), ST_OK);
 }
 
-#define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define T(name) cmocka_unit_test_setup_teardown(name, set_up, place_gone)
 
 int main(void)
 {

@@ -36,6 +36,8 @@ static int tear_down(void **state)
 }
 
 struct found {
+	int64_t last; /* number given */
+	bool held;
 	int n;
 	int64_t ids[1000];
 	enum job_state states[1000];
@@ -53,6 +55,12 @@ static enum status find(void *data, struct Stats *s, bool front, bool killed)
 	return ST_OK;
 }
 
+static void load(struct ledger *l, struct found *f)
+{
+	f->n = 0;
+	assert_int_equal(l->load(l->data, find, f, &f->last, &f->held, NULL), ST_OK);
+}
+
 static enum status put(struct ledger *l, int64_t id, enum job_state state, bool durable)
 {
 	struct Stats s;
@@ -68,12 +76,10 @@ static void keeps_records_and_numbers(void **state)
 	char *path = path_join(*state, "jobs.db");
 	struct ledger l;
 	struct found f = { 0 };
-	int64_t last;
-	bool held;
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
-	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
+	load(&l, &f);
 	assert_int_equal(f.n, 0);
-	assert_int_equal(last, 0);
+	assert_int_equal(f.last, 0);
 	for (int64_t id = 1; id <= 4; id++)
 		assert_int_equal(put(&l, id, JOB_QUEUED, id % 2), ST_OK);
 	assert_int_equal(put(&l, 2, JOB_RUNNING, false), ST_OK);
@@ -82,9 +88,9 @@ static void keeps_records_and_numbers(void **state)
 	ledger_close(&l);
 
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
-	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
+	load(&l, &f);
 	assert_int_equal(f.n, 3);
-	assert_int_equal(last, 4);
+	assert_int_equal(f.last, 4);
 	assert_int_equal(f.states[0], JOB_QUEUED);
 	assert_int_equal(f.states[1], JOB_RUNNING);
 	assert_true(f.front[1] && !f.front[0] && f.killed[2] && !f.killed[1]);
@@ -98,8 +104,7 @@ static void a_crash_loses_nothing_acknowledged(void **state)
 	char *path = path_join(*state, "jobs.db");
 	struct ledger l;
 	struct found f = { 0 };
-	int64_t last, told = 0, id;
-	bool held;
+	int64_t told = 0, id;
 	int p[2];
 	assert_int_equal(pipe(p), 0);
 	pid_t child = fork();
@@ -122,8 +127,8 @@ static void a_crash_loses_nothing_acknowledged(void **state)
 	close(p[0]);
 	assert_true(told >= 300);
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
-	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
-	assert_true(last >= told);
+	load(&l, &f);
+	assert_true(f.last >= told);
 	assert_true(f.n >= told);
 	ledger_close(&l);
 	free(path);
@@ -135,8 +140,6 @@ static void a_batch_is_written_whole_or_not_at_all(void **state)
 	struct ledger l;
 	struct found f = { 0 };
 	struct report_store store;
-	int64_t last;
-	bool held;
 	report_store_init(&store);
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	assert_int_equal(put(&l, 1, JOB_QUEUED, true), ST_OK);
@@ -158,7 +161,7 @@ static void a_batch_is_written_whole_or_not_at_all(void **state)
 	setrlimit(RLIMIT_FSIZE, &old);
 	assert_int_equal(st, ST_RESOURCE);
 	assert_non_null(strstr(store.error, "cannot write the ledger"));
-	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
+	load(&l, &f);
 	assert_int_equal(f.n, 1);
 	/* and when there is room again, it goes on */
 	assert_int_equal(l.write(l.data, c, 500, true, NULL), ST_OK);
@@ -196,8 +199,6 @@ static void damage_costs_no_more_than_it_must(void **state)
 	struct ledger l;
 	struct found f = { 0 };
 	struct report_store store;
-	int64_t last;
-	bool held;
 	sqlite3 *db;
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	for (int64_t id = 1; id <= 400; id++)
@@ -209,7 +210,7 @@ static void damage_costs_no_more_than_it_must(void **state)
 	        SQLITE_OK);
 	sqlite3_close(db);
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
-	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
+	load(&l, &f);
 	assert_int_equal(f.n, 400);
 	assert_int_equal(f.ids[6], 7);
 	assert_int_equal(f.states[6], JOB_LOST);
@@ -228,7 +229,7 @@ static void damage_costs_no_more_than_it_must(void **state)
 	f.n = 0;
 	enum status st = ledger_open(&l, path, &store.report);
 	if (st == ST_OK) {
-		st = l.load(l.data, find, &f, &last, &held, &store.report);
+		st = l.load(l.data, find, &f, &f.last, &f.held, &store.report);
 		ledger_close(&l);
 	}
 	assert_int_equal(st, ST_RESOURCE);
@@ -236,27 +237,26 @@ static void damage_costs_no_more_than_it_must(void **state)
 	free(path);
 }
 
-/* In a child that permissions hold, whoever runs the test. */
 static void whether_the_queue_is_held_is_kept(void **state)
 {
 	static const bool steps[] = { false, true, true, false, false, true };
 	char *path = path_join(*state, "jobs.db");
 	struct ledger l;
 	struct found f = { 0 };
-	int64_t last;
 	for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
-		bool held = !steps[i];
+		f.held = !steps[i];
 		assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 		assert_int_equal(l.hold(l.data, steps[i], NULL), ST_OK);
 		ledger_close(&l);
 		assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
-		assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
-		assert_int_equal(held, steps[i]);
+		load(&l, &f);
+		assert_int_equal(f.held, steps[i]);
 		ledger_close(&l);
 	}
 	free(path);
 }
 
+/* In a child that permissions hold, whoever runs the test. */
 static void a_ledger_that_may_not_be_written_says_so(void **state)
 {
 	char *path = path_join(*state, "jobs.db");
@@ -346,14 +346,12 @@ static void what_is_over_is_found_when_it_is_looked_for(void **state)
 	struct ledger l;
 	struct found f = { 0 };
 	struct text t = { 0 };
-	int64_t last;
-	bool held;
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	fill(&l, 500);
 	check_choices(&l, 500);
-	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
+	load(&l, &f);
 	assert_int_equal(f.n, 100);
-	assert_int_equal(last, 500);
+	assert_int_equal(f.last, 500);
 	f.n = 0;
 	assert_int_equal(l.find(l.data, 2, find, &f, NULL), ST_OK);
 	assert_int_equal(l.find(l.data, 501, find, &f, NULL), ST_OK);
@@ -376,9 +374,8 @@ static void a_ledger_of_before_is_taken_over(void **state)
 	struct ledger l;
 	struct found f = { 0 };
 	struct text t = { 0 };
-	int64_t last, *ids;
+	int64_t *ids;
 	size_t n;
-	bool held;
 	sqlite3 *db;
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	fill(&l, 500);
@@ -419,8 +416,7 @@ static void a_ledger_of_before_is_taken_over(void **state)
 	assert_false(l.text(l.data, 6, &t));
 	assert_int_equal(l.find(l.data, 6, find, &f, NULL), ST_OK);
 	assert_int_equal(f.states[0], JOB_LOST);
-	f.n = 0;
-	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
+	load(&l, &f);
 	assert_int_equal(f.n, 100);
 	free(ids);
 	text_finish(&t);

@@ -9,22 +9,6 @@
 
 #include "fake.h"
 
-static int set_up(void **state)
-{
-	struct fake *f = malloc(sizeof *f);
-	*state = f;
-	if (f)
-		fake_init(f);
-	return !f;
-}
-
-static int tear_down(void **state)
-{
-	fake_finish(*state);
-	free(*state);
-	return 0;
-}
-
 static void a_job_over_its_time_fails_and_says_so(void **state)
 {
 	struct fake *f = *state;
@@ -320,7 +304,7 @@ static void earlier_jobs_say_how_long_it_takes(void **state)
 	}
 }
 
-#define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define T(name) cmocka_unit_test_setup_teardown(name, fake_new, fake_gone)
 
 int main(void)
 {

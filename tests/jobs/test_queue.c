@@ -10,22 +10,6 @@
 #include "fake.h"
 #include "job.h"
 
-static int set_up(void **state)
-{
-	struct fake *f = malloc(sizeof *f);
-	*state = f;
-	if (f)
-		fake_init(f);
-	return !f;
-}
-
-static int tear_down(void **state)
-{
-	fake_finish(*state);
-	free(*state);
-	return 0;
-}
-
 static void runs_a_job_to_its_end(void **state)
 {
 	struct fake *f = *state;
@@ -373,7 +357,7 @@ static void a_job_is_among_the_changed_once(void **state)
 	}
 }
 
-#define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define T(name) cmocka_unit_test_setup_teardown(name, fake_new, fake_gone)
 
 static void one_that_was_stopped_from_outside_is_killed(void **state)
 {

@@ -21,22 +21,6 @@
 #include "place.h"
 #include "text.h"
 
-static int set_up(void **state)
-{
-	struct place *p = malloc(sizeof *p);
-	*state = p;
-	if (p)
-		place_init(p, "BATTEN_JOBS=2");
-	return !p;
-}
-
-static int tear_down(void **state)
-{
-	place_finish(*state);
-	free(*state);
-	return 0;
-}
-
 static void a_dead_service_takes_its_workers_and_loses_no_job(void **state)
 {
 	struct place *p = *state;
@@ -279,11 +263,7 @@ static void crash_after_crash_every_job_is_done(void **state)
 
 static int set_up_idle(void **state)
 {
-	struct place *p = malloc(sizeof *p);
-	*state = p;
-	if (p)
-		place_init(p, "BATTEN_IDLE=0.2");
-	return !p;
+	return place_new(state, "BATTEN_IDLE=0.2");
 }
 
 static void an_idle_service_ends_and_the_next_one_knows_all(void **state)
@@ -320,8 +300,8 @@ static void a_job_keeps_the_service_alive_without_clients(void **state)
 	free(gate);
 }
 
-#define T(name)    cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-#define IDLE(name) cmocka_unit_test_setup_teardown(name, set_up_idle, tear_down)
+#define T(name)    cmocka_unit_test_setup_teardown(name, place_of_two_jobs, place_gone)
+#define IDLE(name) cmocka_unit_test_setup_teardown(name, set_up_idle, place_gone)
 
 int main(void)
 {

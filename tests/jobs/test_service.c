@@ -12,39 +12,11 @@
 
 #include <cmocka.h>
 
+#include "checked.h"
 #include "file.h"
 #include "path.h"
 #include "place.h"
 #include "text.h"
-
-/* A build that checks addresses has no limit on memory. */
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define CHECKED_BUILD 1
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__)
-#define CHECKED_BUILD 1
-#endif
-#ifndef CHECKED_BUILD
-#define CHECKED_BUILD 0
-#endif
-
-static int set_up(void **state)
-{
-	struct place *p = malloc(sizeof *p);
-	*state = p;
-	if (p)
-		place_init(p, "BATTEN_JOBS=2");
-	return !p;
-}
-
-static int tear_down(void **state)
-{
-	place_finish(*state);
-	free(*state);
-	return 0;
-}
 
 static void runs_a_job(void **state)
 {
@@ -144,7 +116,7 @@ static void the_starter_sets_what_a_worker_must_not(void **state)
 	assert_int_equal(sscanf(text, "nice %lld, data %lld", &niceness, &data), 2);
 	assert_int_equal(niceness, 5);
 	/* 1000 MiB, 256 for the program, 16 a thread */
-	if (!CHECKED_BUILD)
+	if (!CHECKED_BUILD) /* it has no limit */
 		assert_int_equal(data, 1288);
 	free(text);
 }
@@ -476,7 +448,7 @@ static void ten_thousand_jobs_come_from_a_file(void **state)
 	free(path);
 }
 
-#define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define T(name) cmocka_unit_test_setup_teardown(name, place_of_two_jobs, place_gone)
 
 int main(void)
 {

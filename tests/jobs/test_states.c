@@ -8,22 +8,6 @@
 
 #include "fake.h"
 
-static int set_up(void **state)
-{
-	struct fake *f = malloc(sizeof *f);
-	*state = f;
-	if (f)
-		fake_init(f);
-	return !f;
-}
-
-static int tear_down(void **state)
-{
-	fake_finish(*state);
-	free(*state);
-	return 0;
-}
-
 static void a_suspended_job_gives_its_slot_away(void **state)
 {
 	struct fake *f = *state;
@@ -270,7 +254,7 @@ static void holds_and_releases(void **state)
 	assert_int_equal(fake_state(f, id), JOB_STARTING);
 }
 
-#define T(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+#define T(name) cmocka_unit_test_setup_teardown(name, fake_new, fake_gone)
 
 int main(void)
 {

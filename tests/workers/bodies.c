@@ -86,6 +86,19 @@ json_t *figures_of(const struct model *m)
 	return figures;
 }
 
+double figure_of(const struct exr_picture *p, const char *name)
+{
+	const char *text = exr_text(p, "figures");
+	json_t *figures;
+
+	assert_non_null(text);
+	assert_int_equal(json_parse_object(text, strlen(text), "figures", &figures, NULL), ST_OK);
+	assert_true(json_is_number(json_object_get(figures, name)));
+	double x = json_number(figures, name, NAN);
+	json_decref(figures);
+	return x;
+}
+
 void expect_refusals(const char *worker, const struct refusal *list, size_t n, const char *output)
 {
 	for (size_t i = 0; i < n; i++) {

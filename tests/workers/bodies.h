@@ -7,6 +7,7 @@
 
 #include <jansson.h>
 
+#include "exr.h"
 #include "model.h"
 
 struct surface body_sphere(struct vec3 center, double radius);
@@ -28,8 +29,9 @@ void run_well(const char *worker, ...);
 
 void near(double a, double b, double tolerance);
 
-/* The figures a model was written with; the caller's. */
+/* The figures a model was written with; the caller's. One that an image was. */
 json_t *figures_of(const struct model *m);
+double figure_of(const struct exr_picture *p, const char *name);
 
 struct refusal {
 	const char *input, *arguments[6];

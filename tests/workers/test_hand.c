@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "checked.h"
+
 static char *probe, *scene;
 
 static int enter(void **state)
@@ -305,19 +307,11 @@ static void test_interrupt(void **state)
 	assert_int_equal(count_lines("log"), 5);
 }
 
-/* The sanitizer's own shadow would not fit a limit; it has one of its own. */
-#if defined(__SANITIZE_ADDRESS__)
-#define ADDRESS_SPACE_IS_TAKEN 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ADDRESS_SPACE_IS_TAKEN 1
-#endif
-#endif
-
+/* A sanitizer's own shadow would not fit a limit; it has one of its own. */
 static void test_memory(void **state)
 {
 	(void)state;
-#ifdef ADDRESS_SPACE_IS_TAKEN
+#if CHECKED_BUILD
 	const char *options = getenv("ASAN_OPTIONS");
 	char *saved = strdup(options ? options : "");
 	int resource = 0, limit = 0;
@@ -329,7 +323,7 @@ static void test_memory(void **state)
 	                   "1000000000", "--threads", "2", NULL),
 	       1, "", "memory ran out while computing");
 	assert_int_equal(count_files(), 2);
-#ifdef ADDRESS_SPACE_IS_TAKEN
+#if CHECKED_BUILD
 	setenv("ASAN_OPTIONS", saved, 1);
 	free(saved);
 #endif

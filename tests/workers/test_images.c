@@ -51,19 +51,6 @@ static void see(struct seen *s, const char *path)
 	}
 }
 
-static double figure(const struct seen *s, const char *name)
-{
-	const char *text = exr_text(&s->picture, "figures");
-	json_t *figures;
-
-	assert_non_null(text);
-	assert_int_equal(json_parse_object(text, strlen(text), "figures", &figures, NULL), ST_OK);
-	assert_true(json_is_number(json_object_get(figures, name)));
-	double x = json_number(figures, name, NAN);
-	json_decref(figures);
-	return x;
-}
-
 /* A white sphere with the light at the viewer's: both workers must give N . L and nothing else,
  * without a speckle; what is not covered is empty. */
 static void test_sphere(void **state)
@@ -108,10 +95,11 @@ static void test_sphere(void **state)
 		}
 		/* 6 % of margin a side of the smaller side */
 		near((double)covered, M_PI * 70.4 * 70.4, 200);
-		near(figure(&s, "pixels"), (double)covered, 0);
-		near(figure(&s, "rays"), k ? 200 * 160 + (double)covered : 200 * 160, 0);
-		near(figure(&s, "surfaces"), 1, 0);
-		assert_true(figure(&s, "depth_min") < figure(&s, "depth_max"));
+		near(figure_of(&s.picture, "pixels"), (double)covered, 0);
+		near(figure_of(&s.picture, "rays"), k ? 200 * 160 + (double)covered : 200 * 160, 0);
+		near(figure_of(&s.picture, "surfaces"), 1, 0);
+		assert_true(figure_of(&s.picture, "depth_min") <
+		            figure_of(&s.picture, "depth_max"));
 		exr_picture_finish(&s.picture);
 	}
 }
@@ -131,8 +119,8 @@ static void test_nearest_surface(void **state)
 		near((double)s.point[2][i], fabs(x) < 1 && fabs(y) < 1 ? 1 : 0, 1e-6);
 		near(fabs((double)s.normal[2][i]), 1, 1e-6);
 	}
-	near(figure(&s, "surfaces"), 2, 0);
-	near(figure(&s, "depth_max") - figure(&s, "depth_min"), 1, 1e-6);
+	near(figure_of(&s.picture, "surfaces"), 2, 0);
+	near(figure_of(&s.picture, "depth_max") - figure_of(&s.picture, "depth_min"), 1, 1e-6);
 	exr_picture_finish(&s.picture);
 }
 
@@ -234,7 +222,7 @@ static void test_mirror(void **state)
 		run_well(raytrace, "ball.base", "--view", "-90,30", "--depth", depth ? "1" : "0",
 		         "--environment", "sky", "--size", "80x80", "--shadows", "no", NULL);
 		see(&s, "ball.trace.exr");
-		rays[depth] = figure(&s, "rays");
+		rays[depth] = figure_of(&s.picture, "rays");
 		exr_picture_finish(&s.picture);
 	}
 	near(rays[0], 80 * 80 * 9, 0);

@@ -70,19 +70,6 @@ static int enter(void **state)
 	return 0;
 }
 
-static double figure(const struct exr_picture *p, const char *name)
-{
-	const char *text = exr_text(p, "figures");
-	json_t *figures;
-
-	assert_non_null(text);
-	assert_int_equal(json_parse_object(text, strlen(text), "figures", &figures, NULL), ST_OK);
-	assert_true(json_is_number(json_object_get(figures, name)));
-	double x = json_number(figures, name, NAN);
-	json_decref(figures);
-	return x;
-}
-
 /* Through the hole the square below is seen, and past it nothing; and the light falls so, too. */
 static void test_hole_is_seen_through(void **state)
 {
@@ -126,8 +113,8 @@ static void test_hole_is_seen_through(void **state)
 			assert_true(fabs(share - seen / all) < 0.003);
 		}
 		assert_true(past > 0);
-		assert_true(figure(&p, "trimmed") == trimmed);
-		assert_true(figure(&p, "surfaces") == 2);
+		assert_true(figure_of(&p, "trimmed") == trimmed);
+		assert_true(figure_of(&p, "surfaces") == 2);
 		exr_picture_finish(&p);
 	}
 }
@@ -210,9 +197,9 @@ static void test_curvature_counts_the_inside(void **state)
 			}
 		model_finish(&m);
 		assert_true(expected > 1000);
-		assert_true(figure(&p, "outside") == nan);
-		assert_true(figure(&p, "undefined") == 0);
-		assert_true(fabs(figure(&p, "K_max") - 0.25) < 1e-9);
+		assert_true(figure_of(&p, "outside") == nan);
+		assert_true(figure_of(&p, "undefined") == 0);
+		assert_true(fabs(figure_of(&p, "K_max") - 0.25) < 1e-9);
 		exr_picture_finish(&p);
 	}
 }

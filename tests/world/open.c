@@ -41,6 +41,21 @@ void place_finish(struct place *p)
 	free(p->folder);
 }
 
+int place_new(void **state)
+{
+	static struct place p;
+
+	place_init(&p);
+	*state = &p;
+	return 0;
+}
+
+int place_gone(void **state)
+{
+	place_finish(*state);
+	return 0;
+}
+
 char *place_path(const struct place *p, const char *name)
 {
 	char *path = path_join(p->folder, name);

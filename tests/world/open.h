@@ -11,7 +11,10 @@ struct place {
 };
 
 void place_init(struct place *p);
-void place_finish(struct place *p);                        /* takes the folder away */
+void place_finish(struct place *p); /* takes the folder away */
+/* Of cmocka: *state is a place; gone again. */
+int place_new(void **state);
+int place_gone(void **state);
 char *place_path(const struct place *p, const char *name); /* fresh */
 
 /* Write `n` spheres of radius 1, 2, ... as a file of n surfaces. */

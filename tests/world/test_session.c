@@ -14,21 +14,6 @@
 #include "open.h"
 #include "path.h"
 
-static int setup(void **state)
-{
-	static struct place p;
-
-	place_init(&p);
-	*state = &p;
-	return 0;
-}
-
-static int teardown(void **state)
-{
-	place_finish(*state);
-	return 0;
-}
-
 static void restart(struct place *p)
 {
 	world_destroy(p->world);
@@ -268,11 +253,11 @@ static void test_damaged(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test_setup_teardown(test_round_trip, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_foreign_file, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_sweep, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_missing_files, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_damaged, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_round_trip, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_foreign_file, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_sweep, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_missing_files, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_damaged, place_new, place_gone),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

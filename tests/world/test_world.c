@@ -10,21 +10,6 @@
 #include "open.h"
 #include "path.h"
 
-static int setup(void **state)
-{
-	static struct place p;
-
-	place_init(&p);
-	*state = &p;
-	return 0;
-}
-
-static int teardown(void **state)
-{
-	place_finish(*state);
-	return 0;
-}
-
 /* What is open, as one line: names by blanks, the current surface and curve behind. */
 static void assert_open(const struct place *p, const char *expected)
 {
@@ -360,16 +345,16 @@ static void test_overlays(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test_setup_teardown(test_open, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_open_fails, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_many_edits, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_curve_on_surface, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_edits, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_steps, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_many_steps, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_names, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_save, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_overlays, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_open, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_open_fails, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_many_edits, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_curve_on_surface, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_edits, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_steps, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_many_steps, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_names, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_save, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_overlays, place_new, place_gone),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
