@@ -9,17 +9,8 @@ enum { LEARNT = 500 };
 
 static enum status archive_take(void *data, struct Stats *s, bool front, bool killed)
 {
-	struct queue *q = data;
-	struct job *job = job_create(q);
 	(void)killed;
-	if (!job) {
-		stats_finish(s);
-		return ST_RESOURCE;
-	}
-	job->stats = *s;
-	job->front = front;
-	queue_insert(q, job);
-	return ST_OK;
+	return queue_take(data, s, front) ? ST_OK : ST_RESOURCE;
 }
 
 struct job *archive_fetch(struct queue *q, int64_t id)

@@ -15,6 +15,7 @@
 
 #include "description.h"
 #include "json.h"
+#include "process.h"
 #include "text.h"
 
 extern char **environ;
@@ -47,19 +48,13 @@ static void asked_start(struct asked *a)
 	int p[2];
 	posix_spawn_file_actions_t actions;
 	posix_spawnattr_t attributes;
-	sigset_t none, all;
 	if (pipe2(p, O_CLOEXEC)) {
 		asked_broken(a, text_print("cannot run it: %s", strerror(errno)));
 		return;
 	}
 	posix_spawn_file_actions_init(&actions);
 	posix_spawnattr_init(&attributes);
-	sigemptyset(&none);
-	sigfillset(&all);
-	posix_spawnattr_setsigmask(&attributes, &none);
-	posix_spawnattr_setsigdefault(&attributes, &all);
-	posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK |
-	                                              POSIX_SPAWN_SETSIGDEF);
+	process_apart(&attributes);
 	posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
 	posix_spawn_file_actions_adddup2(&actions, p[1], 1);
 	posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);

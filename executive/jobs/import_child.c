@@ -10,25 +10,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "file.h"
 #include "json.h"
 #include "path.h"
 #include "text.h"
 
 extern char **environ;
-
-static enum status read_all(int fd, struct text *t)
-{
-	char block[1 << 16];
-	ssize_t n;
-
-	while ((n = read(fd, block, sizeof block)) != 0) {
-		if (n < 0 && errno != EINTR)
-			return ST_RESOURCE;
-		if (n > 0)
-			text_add_bytes(t, block, (size_t)n);
-	}
-	return t->failed ? ST_RESOURCE : ST_OK;
-}
 
 /* The child has said its sentence itself; only its end without one needs ours. */
 static enum status status_of_child(int wait_status, const char *argument, const struct report *r)
@@ -63,7 +50,7 @@ enum status import_child(const char *argument, const struct project *p, json_t *
 	    posix_spawn(&pid, program, &actions, NULL, argv, environ) == 0) {
 		close(fds[1]);
 		fds[1] = -1;
-		st = read_all(fds[0], &said);
+		st = file_read_open(fds[0], &said);
 		while (waitpid(pid, &wait_status, 0) < 0 && errno == EINTR)
 			;
 		if (st == ST_OK)

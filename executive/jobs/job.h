@@ -119,9 +119,11 @@ int job_threads(const struct job *job);        /* of all its processes */
 int64_t job_memory_mib(const struct job *job); /* likewise */
 
 /* queue.c */
-struct job *job_create(struct queue *q);
 void job_destroy(struct job *job);
 void queue_insert(struct queue *q, struct job *job);
+/* A job with that record, which is taken over; NULL: no memory. */
+struct job *queue_take(struct queue *q, struct Stats *s, bool front);
+void queue_admit(struct job *job); /* into the line, or to wait for others */
 /* Take those that are marked as forgotten out of memory. */
 void queue_drop_forgotten(struct queue *q);
 

@@ -2,6 +2,7 @@
 #ifndef BATTEN_PROCESS_H
 #define BATTEN_PROCESS_H
 
+#include <spawn.h>
 #include <stdint.h>
 #include <sys/types.h>
 
@@ -21,6 +22,9 @@ struct spawn {
  * pidfd becomes readable when it ends. Errors: ST_RESOURCE. */
 enum status spawn_worker(const struct spawn *s, pid_t *pid, int *in, int *out, int *pidfd,
                          const struct report *r);
+
+/* Of a child in a group of its own that is to hear every signal, whatever we block or ignore. */
+void process_apart(posix_spawnattr_t *attributes);
 
 /* If process pid leads its group and runs that worker (others may have got its number since), kill the
  * group and wait for its end, a few seconds at most. It need not be a child. */

@@ -84,7 +84,7 @@ static bool grow(void *array, int *cap, int need, size_t size)
 }
 
 /* Room in `changed` is made with the job, so that a change cannot fail. */
-struct job *job_create(struct queue *q)
+static struct job *job_create(struct queue *q)
 {
 	if (!grow(&q->jobs, &q->cap, q->n + 1, sizeof(struct job *)) ||
 	    !grow(&q->changed, &q->changed_cap, q->n + 1, sizeof(struct job *)))
@@ -175,8 +175,21 @@ void queue_insert(struct queue *q, struct job *job)
 		q->last = job->stats.id;
 }
 
+struct job *queue_take(struct queue *q, struct Stats *s, bool front)
+{
+	struct job *job = job_create(q);
+	if (!job) {
+		stats_finish(s);
+		return NULL;
+	}
+	job->stats = *s;
+	job->front = front;
+	queue_insert(q, job);
+	return job;
+}
+
 /* A job's first state: in the line, or waiting for jobs that have failed already. */
-static void queue_admit(struct job *job)
+void queue_admit(struct job *job)
 {
 	job->unsettled = line_unsettled(job);
 	job->q->unsettled |= job->unsettled > 0;
@@ -236,97 +249,6 @@ enum status queue_submit(struct queue *q, const struct Stats *s, int n, int64_t 
 	}
 	free(changes);
 	free(fresh);
-	return st;
-}
-
-/* It had begun under an earlier service: does it go on by itself? */
-static void job_resumed(struct job *job)
-{
-	long long id = job->stats.id;
-	if (job->q->limits.resume == RESUME_ASK) {
-		job_enter(job, JOB_HELD);
-		job_reason(job, "the service ended while it ran; 'batten release %lld' goes on",
-		           id);
-	} else if (job->q->limits.resume == RESUME_NEVER) {
-		job_enter(job, JOB_LOST);
-		job_reason(job,
-		           "the service ended while it ran; 'batten retry %lld' goes on from its "
-		           "part file",
-		           id);
-	}
-}
-
-/* What had a process had it from a service that is no more. */
-static void job_loaded(struct job *job, bool killed)
-{
-	struct queue *q = job->q;
-	enum job_state state = job->stats.state;
-	struct report_store store;
-	if (job->stats.pid > 0) {
-		q->ports.launcher->bury(q->ports.launcher->data, &job->stats);
-		job_tidy(job);
-	}
-	job->stats.pid = 0;
-	if (state == JOB_QUEUED && job->front && job->stats.started > 0)
-		job_resumed(job);
-	if (state != JOB_STARTING && state != JOB_RUNNING && state != JOB_ENDING)
-		return;
-	q->count[state]--;
-	q->count[JOB_QUEUED]++;
-	job->stats.state = JOB_QUEUED;
-	job->front = true;
-	job_changed(job, true);
-	report_store_init(&store);
-	if (killed) {
-		job_enter(job, JOB_KILLED);
-	} else if (q->ports.launcher->check(q->ports.launcher->data, &job->stats, &store.report) !=
-	           ST_OK) {
-		job_enter(job, JOB_LOST);
-		job_reason(job, "the service ended while it ran, and it cannot go on: %s",
-		           store.error);
-	} else {
-		job_resumed(job);
-	}
-}
-
-static enum status queue_take(void *data, struct Stats *s, bool front, bool killed)
-{
-	struct queue *q = data;
-	struct job *job = job_create(q);
-	if (!job) {
-		stats_finish(s);
-		return ST_RESOURCE;
-	}
-	job->stats = *s;
-	job->front = front;
-	queue_insert(q, job);
-	job_loaded(job, killed);
-	if (q->ports.loading)
-		q->ports.loading(q->ports.loading_data, q->n);
-	return ST_OK;
-}
-
-enum status queue_load(struct queue *q, const struct report *r)
-{
-	int64_t last = 0;
-	enum status st =
-	        q->ports.ledger->load(q->ports.ledger->data, queue_take, q, &last, &q->held, r);
-	if (last > q->last)
-		q->last = last;
-	int n = q->n;
-	struct job **live = calloc((size_t)n + 1, sizeof *live);
-	if (!live)
-		st = ST_RESOURCE;
-	if (live && n)
-		memcpy(live, q->jobs, (size_t)n * sizeof *live);
-	for (int i = 0; i < n && st == ST_OK; i++)
-		archive_fetch_awaited(live[i]);
-	for (int i = 0; i < n && st == ST_OK; i++)
-		if (!job_state_table[live[i]->stats.state].over)
-			queue_admit(live[i]);
-	free(live);
-	if (st == ST_OK)
-		archive_fetch_last(q);
 	return st;
 }
 

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "base.h"
+#include "file.h"
 #include "json.h"
 #include "number.h"
 #include "path.h"
@@ -245,22 +246,6 @@ static enum status judge(struct child *c, const char *path, const struct report 
 
 /* ------------------------------------------------------------ take over */
 
-static enum status read_file(int fd, struct text *t)
-{
-	char block[1 << 16];
-	ssize_t n;
-
-	if (lseek(fd, 0, SEEK_SET) < 0)
-		return ST_RESOURCE;
-	while ((n = read(fd, block, sizeof block)) != 0) {
-		if (n < 0 && errno != EINTR)
-			return ST_RESOURCE;
-		if (n > 0)
-			text_add_bytes(t, block, (size_t)n);
-	}
-	return t->failed ? ST_RESOURCE : ST_OK;
-}
-
 /* What could not be read, and what was wrong, is not in the file. */
 static enum status take_complaints(struct model *m, const struct text *answer,
                                    const struct report *r)
@@ -300,7 +285,8 @@ static enum status take_over(struct child *c, struct model *out, const char *pat
 	const struct progress after = { p ? step_after : NULL, (void *)(size_t)p,
 		                        p ? p->stop : NULL };
 	struct text t = { 0 };
-	enum status st = read_file(c->model, &t);
+	enum status st =
+	        lseek(c->model, 0, SEEK_SET) < 0 ? ST_RESOURCE : file_read_open(c->model, &t);
 
 	if (st != ST_OK)
 		report_error(r, st, "cannot take over what was read of '%s'", path);

@@ -51,6 +51,22 @@ static int read_up_to(int fd, struct text *t, uint64_t n)
 	return 0;
 }
 
+enum status file_read_open(int fd, struct text *t)
+{
+	return read_up_to(fd, t, UINT64_MAX) || t->failed ? ST_RESOURCE : ST_OK;
+}
+
+bool file_stamp(const char *path, int64_t stamp[3])
+{
+	struct stat s;
+	if (stat(path, &s) < 0)
+		return false;
+	stamp[0] = (int64_t)s.st_mtim.tv_sec * 1000000000 + s.st_mtim.tv_nsec;
+	stamp[1] = (int64_t)s.st_size;
+	stamp[2] = (int64_t)s.st_ino;
+	return true;
+}
+
 enum status file_read_wanted(const char *path, uint64_t max, size_t look, file_wanted *wanted,
                              char **out, size_t *n, const struct report *r)
 {

@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 #include "report.h"
+#include "text.h"
 
 /*
  * Read a whole file. *out is the caller's to free and has a zero byte behind its *n bytes.
@@ -21,6 +22,9 @@ enum status file_read(const char *path, uint64_t max, char **out, size_t *n,
 typedef bool file_wanted(const char *bytes, size_t n);
 enum status file_read_wanted(const char *path, uint64_t max, size_t look, file_wanted *wanted,
                              char **out, size_t *n, const struct report *r);
+
+/* Append all that comes of a descriptor until its end. Errors: ST_RESOURCE (unreadable, no memory). */
+enum status file_read_open(int fd, struct text *t);
 
 /*
  * A file on its way: written without a name on the same disk (where that cannot be, under a temporary
@@ -44,6 +48,10 @@ void whole_file_abandon(struct whole_file *f);
 
 /* Create, write n bytes, commit. */
 enum status file_write(const char *path, const void *bytes, size_t n, const struct report *r);
+
+/* A file's time (nanoseconds), size (bytes) and i-node: one that has the same has not changed. False: it is
+ * not there, and `stamp` is left as it is. */
+bool file_stamp(const char *path, int64_t stamp[3]);
 
 /* The mode bits that new files of this process are without. Thread: any. */
 unsigned file_mask(void);
