@@ -398,16 +398,9 @@ static void check_references(struct scanner *p)
 enum status base_parse(struct model *m, const char *bytes, size_t n, const char *name,
                        const struct progress *progress, const struct report *r)
 {
-	struct scanner p = { .start = bytes,
-		             .s = bytes,
-		             .end = bytes + n,
-		             .token = bytes,
-		             .name = name,
-		             .m = m,
-		             .progress = progress,
-		             .r = r,
-		             .st = ST_OK };
+	struct scanner p;
 	int64_t count = -1;
+	scan_init(&p, bytes, n, name, m, progress, r);
 	read_header(&p);
 	while (p.st == ST_OK && !(scan_blanks(&p), p.s >= p.end)) {
 		if (scan_word(&p, "type"))

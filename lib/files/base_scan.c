@@ -10,6 +10,19 @@
 #include "number.h"
 #include "text.h"
 
+void scan_init(struct scanner *p, const char *bytes, size_t n, const char *name, struct model *m,
+               const struct progress *progress, const struct report *r)
+{
+	*p = (struct scanner){ .start = bytes,
+		               .s = bytes,
+		               .end = bytes + n,
+		               .token = bytes,
+		               .name = name,
+		               .m = m,
+		               .progress = progress,
+		               .r = r };
+}
+
 static bool is_blank(char c)
 {
 	return c == ' ' || c == '\t' || c == '\n' || c == '\r';

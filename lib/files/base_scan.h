@@ -16,6 +16,10 @@ struct scanner {
 	enum status st; /* a parser that has failed stays failed */
 };
 
+/* At the beginning of n bytes; all is borrowed. */
+void scan_init(struct scanner *p, const char *bytes, size_t n, const char *name, struct model *m,
+               const struct progress *progress, const struct report *r);
+
 /* Pass blanks and comments; the next token begins at p->token then. */
 void scan_blanks(struct scanner *p);
 

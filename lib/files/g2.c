@@ -321,14 +321,8 @@ static void parse_object(struct scanner *p)
 enum status g2_parse(struct model *m, const char *bytes, size_t n, const char *name,
                      const struct progress *progress, const struct report *r)
 {
-	struct scanner p = { .start = bytes,
-		             .s = bytes,
-		             .end = bytes + n,
-		             .token = bytes,
-		             .name = name,
-		             .m = m,
-		             .progress = progress,
-		             .r = r };
+	struct scanner p;
+	scan_init(&p, bytes, n, name, m, progress, r);
 	for (scan_blanks(&p); p.st == ST_OK && p.token < p.end; scan_blanks(&p)) {
 		p.st = progress_step(progress, n ? (double)(p.token - bytes) / (double)n : 0);
 		if (p.st == ST_OK)

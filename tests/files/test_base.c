@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "base.h"
-#include "mutate.h"
+#include "survive.h"
 
 static double awkward(uint64_t *seed)
 {
@@ -397,32 +397,20 @@ static void stops_when_told(void **state)
 	text_finish(&t);
 }
 
-/* Damaged in any way, a file is read or refused with one sentence; sanitizers watch. */
+static enum status read_damaged(struct model *m, const char *bytes, size_t n,
+                                const struct report *r)
+{
+	return base_parse(m, bytes, n, "a.base", NULL, r);
+}
+
 static void damaged_files_are_survived(void **state)
 {
 	struct model a;
 	struct text t = { 0 };
-	uint64_t seed = 7;
-	int good = 0, bad = 0;
 	(void)state;
 	make_model(&a, 5);
 	base_format(&a, &t);
-	for (int i = 0; i < 3000; i++) {
-		struct model m;
-		struct report_store store;
-		size_t n = 0;
-		char *bytes = mutate(t.s, t.n, &seed, &n);
-		assert_non_null(bytes);
-		report_store_init(&store);
-		model_init(&m);
-		enum status st = base_parse(&m, bytes, n, "a.base", NULL, &store.report);
-		assert_true(st == ST_OK || st == ST_INPUT);
-		assert_int_equal(store.n_errors, st != ST_OK);
-		st == ST_OK ? good++ : bad++;
-		model_finish(&m);
-		free(bytes);
-	}
-	assert_true(good > 30 && bad > 300);
+	survive(read_damaged, t.s, t.n, 7, 3000, 30, 300);
 	model_finish(&a);
 	text_finish(&t);
 }

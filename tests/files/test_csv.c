@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "csv.h"
-#include "mutate.h"
+#include "survive.h"
 
 static enum status parse(struct model *m, const char *text, struct report_store *store)
 {
@@ -128,30 +128,19 @@ static void written_is_read_to_the_bit(void **state)
 	rmdir(folder);
 }
 
+static enum status read_damaged(struct model *m, const char *bytes, size_t n,
+                                const struct report *r)
+{
+	csv_recognise(bytes, n);
+	return csv_parse(m, bytes, n, "p.csv", NULL, r);
+}
+
 static void damaged_files_are_survived(void **state)
 {
 	(void)state;
 	static const char text[] =
 	        "# points\r\nx;y;z\r\n1.25;2;3\r\n4;5D-3;6\r\n7;8;9\r\n1;2;3\r\n";
-	uint64_t seed = 7;
-	int good = 0, bad = 0;
-	for (int k = 0; k < 3000; k++) {
-		struct model m;
-		struct report_store store;
-		size_t n = 0;
-		char *bytes = mutate(text, sizeof text - 1, &seed, &n);
-		assert_non_null(bytes);
-		report_store_init(&store);
-		model_init(&m);
-		csv_recognise(bytes, n);
-		enum status st = csv_parse(&m, bytes, n, "p.csv", NULL, &store.report);
-		assert_true(st == ST_OK || st == ST_INPUT);
-		assert_int_equal(store.n_errors, st != ST_OK);
-		st == ST_OK ? good++ : bad++;
-		model_finish(&m);
-		free(bytes);
-	}
-	assert_true(good > 100 && bad > 100);
+	survive(read_damaged, text, sizeof text - 1, 7, 3000, 100, 100);
 }
 
 int main(void)

@@ -55,6 +55,20 @@ static void written_is_read_again(void **state)
 	text_finish(&t);
 }
 
+/* a as read, b as read of what is written of a. */
+static void read_and_again(struct model *a, struct model *b, const struct made_entity *entities)
+{
+	const struct made_file f = { 0 };
+	struct report_store store;
+	struct text t = { 0 };
+	assert_int_equal(read_made(a, &f, entities, &store), ST_OK);
+	iges_format(a, &t);
+	assert_false(t.failed);
+	model_init(b);
+	assert_int_equal(iges_parse(b, t.s, t.n, "y.igs", NULL, NULL), ST_OK);
+	text_finish(&t);
+}
+
 /* Curves on a surface stay on it, with name, color and group; lists of points stay one. */
 static void curves_on_surfaces_and_points_are_kept(void **state)
 {
@@ -68,16 +82,9 @@ static void curves_on_surfaces_and_points_are_kept(void **state)
 		{ 402, 7, "402,2,1,7,0,1,13;" },
 		{ 406, 15, "406,1,5Hlines;" },
 	};
-	const struct made_file f = { 0 };
 	struct model a, b;
-	struct report_store store;
-	struct text t = { 0 };
 	(void)state;
-	assert_int_equal(read_made(&a, &f, entities, &store), ST_OK);
-	iges_format(&a, &t);
-	assert_false(t.failed);
-	model_init(&b);
-	assert_int_equal(iges_parse(&b, t.s, t.n, "y.igs", NULL, NULL), ST_OK);
+	read_and_again(&a, &b, entities);
 	const struct model *both[] = { &a, &b };
 	for (int i = 0; i < 2; i++) {
 		const struct entity *last = &both[i]->entities[both[i]->n - 1], *points = last - 1;
@@ -98,7 +105,6 @@ static void curves_on_surfaces_and_points_are_kept(void **state)
 	}
 	model_finish(&a);
 	model_finish(&b);
-	text_finish(&t);
 }
 
 /* Programs that overlook U0 .. V1 must see the part that is meant: it is written alone. */
@@ -112,16 +118,9 @@ static void only_what_is_meant_is_written(void **state)
 		{ 126, 0,
 		  "126,2,1,0,0,1,0,0.,0.,1.,2.,2.,1.,1.,1.,0.,0.,0.,1.,0.,0.,2.,1.,0.,.5,1.75;" },
 	};
-	const struct made_file f = { 0 };
 	struct model a, b;
-	struct report_store store;
-	struct text t = { 0 };
 	(void)state;
-	assert_int_equal(read_made(&a, &f, entities, &store), ST_OK);
-	iges_format(&a, &t);
-	assert_false(t.failed);
-	model_init(&b);
-	assert_int_equal(iges_parse(&b, t.s, t.n, "y.igs", NULL, NULL), ST_OK);
+	read_and_again(&a, &b, entities);
 	const struct surface *s = &b.entities[0].geometry;
 	const struct curve *c = &b.entities[1].curve;
 	assert_true(s->knots[0][1] == 0.5 && s->knots[0][s->n[0]] == 1.75);
@@ -133,7 +132,6 @@ static void only_what_is_meant_is_written(void **state)
 	}
 	model_finish(&a);
 	model_finish(&b);
-	text_finish(&t);
 }
 
 static void a_missing_unit_is_told(void **state)
@@ -203,7 +201,6 @@ static void groups_are_kept(void **state)
 	assert_int_equal(aft, 1);
 	model_finish(&a);
 	model_finish(&b);
-	text_finish(&t);
 }
 
 int main(void)
