@@ -16,7 +16,8 @@ static enum status forget_space(struct act *a, const char *what, int surface)
 	for (int k = 0; k < world_count(a->world) && st == ST_OK; k++) {
 		const struct Ful *f = world_at(a->world, k);
 		struct entity e;
-		if (f->on != surface || !f->entity.space.order)
+		if (f->on != surface || f->entity.kind != ENTITY_CURVE_ON_SURFACE ||
+		    !f->entity.space.order)
 			continue;
 		st = change_begin(a, f, &e);
 		if (st == ST_OK) {

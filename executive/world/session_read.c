@@ -204,7 +204,8 @@ static enum status read_thing(struct world *w, const json_t *o, const char *fold
 	f->entity.number = (int)json_int(o, "number", 0);
 	f->copy_of = (int)json_int(o, "copy_of", 0);
 	f->offset_of = (int)json_int(o, "offset_of", 0);
-	f->on = (int)json_int(o, "on", 0);
+	if (f->entity.kind == ENTITY_CURVE_ON_SURFACE)
+		f->on = (int)json_int(o, "on", 0);
 	f->offset = json_number(o, "offset", 0);
 	f->unit_in_mm = s->m.unit_in_mm;
 	f->scale = s->m.scale;

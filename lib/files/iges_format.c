@@ -330,7 +330,7 @@ static void put_on_surface(struct iges_writer *w, const struct entity *e, int ba
 static bool lies_on_one(const struct model *m, const struct entity *e)
 {
 	return e->kind == ENTITY_CURVE_ON_SURFACE && e->space.order && e->surface >= 0 &&
-	       e->surface < m->n;
+	       e->surface < m->n && m->entities[e->surface].kind == ENTITY_SURFACE;
 }
 
 static enum status put_entities(struct iges_writer *w, const struct model *m)
