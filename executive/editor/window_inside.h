@@ -37,7 +37,10 @@ struct window {
 	char title[256];
 };
 
-/* window.c */
+/* window_display.c. Errors: ST_RESOURCE. */
+enum status window_connect(struct window *w);
+enum status window_open(struct window *w);
+void window_mind_display(struct window *w); /* once it is open: see to the end of the X server */
 void window_feel_display(struct window *w); /* ends the editor where the X server went away */
 
 /* window_input.c */

@@ -1,23 +1,12 @@
 /* frame.c - one drawing of the world: camera, order, targets. */
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "file.h"
 #include "hash.h"
 #include "view_private.h"
 
 enum { SAMPLES = 4, SAMPLED_MOST = 1 << 25 /* px, of 32 bytes with their samples */ };
-
-bool file_stamp(const char *path, int64_t stamp[3])
-{
-	struct stat s;
-	if (stat(path, &s) < 0)
-		return false;
-	stamp[0] = (int64_t)s.st_mtim.tv_sec * 1000000000 + s.st_mtim.tv_nsec;
-	stamp[1] = (int64_t)s.st_size;
-	stamp[2] = (int64_t)s.st_ino;
-	return true;
-}
 
 enum status view_create(struct view **out, const struct report *r)
 {

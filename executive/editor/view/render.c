@@ -1,7 +1,6 @@
 /* render.c - the world as a picture in a file, without a window. */
 #include "render.h"
 
-#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -29,60 +28,6 @@ static const struct format *find_format(const char *path)
 		if (!strcasecmp(path_extension(path), formats[i].extension))
 			return &formats[i];
 	return NULL;
-}
-
-static int shown_quantity(const struct world *w, const struct render_options *o)
-{
-	for (int k = 0; k < world_count(w); k++) {
-		const struct Ful *f = world_at(w, k);
-		const struct overlay *map = overlay_of(w, OVERLAY_MAP, f->id);
-		if (!f->display.on || f->entity.kind != ENTITY_SURFACE ||
-		    f->display.look != LOOK_MAP)
-			continue;
-		if (o->has_quantity)
-			return (int)o->quantity;
-		if (map)
-			return (int)map->quantity;
-	}
-	return -1;
-}
-
-static void add_names(struct text *t, const struct world *w)
-{
-	enum { NAMED = 3 };
-	int n = 0;
-	for (int k = 0; k < world_count(w); k++) {
-		const struct Ful *f = world_at(w, k);
-		if (f->display.on && n++ < NAMED)
-			text_addf(t, "%s%s", n > 1 ? ", " : "", f->name);
-	}
-	if (n > NAMED)
-		text_addf(t, " and %d more", n - NAMED);
-}
-
-void render_words(const struct world *w, const struct render_options *o, struct text *title,
-                  struct text *note)
-{
-	const int quantity = shown_quantity(w, o);
-	int lines = 0;
-	for (int k = 0; k < world_overlays(w); k++) {
-		const struct overlay *x = world_overlay(w, k);
-		if (x->kind == OVERLAY_LINES && x->file)
-			text_addf(note, "%s%s", lines++ ? ", " : "lines of ",
-			          path_file_name(x->file));
-	}
-	if (o->title)
-		text_add(title, o->title);
-	else if (quantity >= 0)
-		text_add(title, quantity_table[quantity].title);
-	else
-		add_names(title, w);
-	if (title->s && quantity >= 0 && !o->title)
-		title->s[0] = (char)toupper((unsigned char)title->s[0]);
-	if (quantity >= 0 || o->title) {
-		text_add(note, lines ? "; " : "");
-		add_names(note, w);
-	}
 }
 
 /* Rows come from the bottom, RGBA; Cairo's go down, as 0xRRGGBB. */
@@ -147,7 +92,7 @@ static void write_words(struct sheet *s, struct view *v, const struct world *w,
 	const double high = s->height / o->scale, wide = s->width / o->scale;
 	key.bar = fmin(fmax(floor(0.28 * high), 140), 320);
 	char unit[64];
-	key.unit = key_unit(w, shown_quantity(w, o), unit);
+	key.unit = key_unit(w, render_quantity(w, o), unit);
 	double width = fmax(key_width(cr, &key), KEY_RIGHT - PAD);
 	key_draw(cr, &key, floor(wide - PAD - width), PAD);
 }

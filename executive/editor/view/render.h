@@ -6,7 +6,8 @@
 #include "text.h"
 #include "view.h"
 
-/* Title and note of the world's picture, fresh. */
+/* render_words.c: which quantity the picture shows, -1: none; its title and note, added to those. */
+int render_quantity(const struct world *w, const struct render_options *o);
 void render_words(const struct world *w, const struct render_options *o, struct text *title,
                   struct text *note);
 

@@ -340,25 +340,6 @@ void hover_draw(struct drawing *d)
 	}
 }
 
-void scratch_begin(struct drawing *d, struct vec3 origin)
-{
-	poly_reset(&d->view->scratch_poly, origin);
-}
-
-void scratch_lines(struct drawing *d, const struct gpu_style *style)
-{
-	poly_end(&d->view->scratch_poly);
-	gpu_poly_load(&d->view->scratch, &d->view->scratch_poly);
-	gpu_draw_lines(&d->frame, &d->view->scratch, &d->view->scratch_poly, style);
-}
-
-void scratch_sprites(struct drawing *d, const struct gpu_sprite *style)
-{
-	poly_end(&d->view->scratch_poly);
-	gpu_poly_load(&d->view->scratch, &d->view->scratch_poly);
-	gpu_draw_sprites(&d->frame, &d->view->scratch, d->view->scratch_poly.origin, style);
-}
-
 enum status scene_draw(struct drawing *d)
 {
 	const double pixel = smallest_pixel(d);

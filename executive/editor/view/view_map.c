@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file.h"
 #include "grid.h"
 #include "hash.h"
 #include "live.h"

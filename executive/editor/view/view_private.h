@@ -172,7 +172,8 @@ void axes_draw(struct drawing *d);
 /* scene.c: the things themselves. */
 enum status scene_draw(struct drawing *d);
 void hover_draw(struct drawing *d); /* the control point under the mouse */
-/* Draw lines that live for one frame. */
+
+/* scratch.c: lines and points that live for one frame; begin, add to d->view->scratch_poly, draw. */
 void scratch_begin(struct drawing *d, struct vec3 origin);
 void scratch_lines(struct drawing *d, const struct gpu_style *style);
 void scratch_sprites(struct drawing *d, const struct gpu_sprite *style);
@@ -183,8 +184,5 @@ enum status drawing_init(struct drawing *d, struct view *v, const struct world *
 void drawing_finish(struct drawing *d);
 /* The theme whose lines have more contrast with that ground. */
 enum theme ground_theme(struct rgb ground);
-
-/* A file's time, size and i-node; false: it is not there. */
-bool file_stamp(const char *path, int64_t stamp[3]);
 
 #endif
