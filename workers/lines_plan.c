@@ -429,7 +429,10 @@ enum status lines_plan_write(const struct lines_plan *p, const char *path, const
 		heading(&d);
 		st = views_draw(&d);
 	}
-	st = st == ST_OK ? svg_write(&d.scene, path, r)
+	const struct scene_sheet sheets = {
+		.width = d.scene.width, .height = d.scene.height, .scenes = &d.scene, .n = 1
+	};
+	st = st == ST_OK ? svg_write(&sheets, path, r)
 	                 : report_error(r, st, "no memory to draw the lines plan");
 	scene_lines_finish(&d.scene);
 	free(d.labels);

@@ -10,6 +10,10 @@ static const struct option_row render_options[] = {
 	{ "--view", NULL, "VIEW",
 	  "three-quarter, front, back, left, right, top, bottom or AZIMUTH,ELEVATION in degrees; "
 	  "then :perspective or :orthographic, and @ANGLE" },
+	{ "--split", NULL, "VIEWS",
+	  "what is beside each other: one; side, two sides; uv, the first surface and the plane of its "
+	  "parameters; or curvatures, all seven (default: one)" },
+	{ "--beside", NULL, "VIEW", "from where the second of two sides looks (default: top)" },
 	{ "--look", NULL, "LOOK",
 	  "wire, shaded or map (default: shaded; with a quantity or a map, map)" },
 	{ "--quantity", NULL, "Q",

@@ -69,27 +69,15 @@ static const char *heading(struct desk *d, struct scraps *s, const char **note)
 static const char *half_heading(struct desk *d, struct scraps *s, int half, const char *title,
                                 const char **note)
 {
-	const struct Ful *parent, *child, *f;
-	const bool family = world_family(d->world, &parent, &child);
+	struct text name = { .s = NULL }, more = { .s = NULL };
 
-	if (d->split == SPLIT_SIDE && half)
-		*note = "from another side";
-	if (d->split == SPLIT_UV && half && (f = desk_uv_surface(d))) {
-		const double(*domain)[2] = (const double(*)[2])f->entity.geometry.domain;
-		*note = scraps_print(s, "u %g to %g, v %g to %g; thin lines are knots",
-		                     domain[0][0], domain[0][1], domain[1][0], domain[1][1]);
-		return scraps_print(s, "Parameter plane of %s", f->name);
-	}
-	if (d->split != SPLIT_CHILD)
-		return title;
-	*note = half ? "child" : "parent";
-	if (family && half && child->offset_of == parent->id)
-		*note = scraps_print(s, "child, %g from its parent", child->offset);
-	if (!family && half) {
-		*note = "what is copied or offset from it will stand here";
-		return "No child yet";
-	}
-	return half ? child->name : parent ? parent->name : "";
+	if (view_tile_words(d->world, d->split, half, &name, &more))
+		title = scraps_print(s, "%s", name.s ? name.s : "");
+	if (more.s)
+		*note = scraps_print(s, "%s", more.s);
+	text_finish(&name);
+	text_finish(&more);
+	return title;
 }
 
 static void tile_headings(struct desk *d, cairo_t *cr, struct scraps *s, double low)

@@ -7,29 +7,15 @@
 
 /* ------------------------------------------------------------ where they are */
 
-/* Long things lie below each other, a square beside what it is of. */
-static int columns_of(const struct desk *d, int n)
-{
-	return n <= 2 ? (n == 2 && d->tiles[1].is_uv) + 1 : 4;
-}
-
-static void place_tiles(struct desk *d, int n)
+static void place_tiles(struct desk *d)
 {
 	const struct box_px v = d->layout.view;
-	const int columns = columns_of(d, n), rows = (n + columns - 1) / columns;
+	struct tile_px px[N_QUANTITIES];
+	const int n = view_tiles(d->split, d->n_tiles == N_QUANTITIES, v.width, v.height, px);
 
-	for (int i = 0; i < n; i++) {
-		struct box_px *b = &d->tiles[i].box;
-		double x0 = round(v.width * (i % columns) / columns);
-		double x1 = round(v.width * (i % columns + 1) / columns);
-		double y0 = round(v.height * (i / columns) / rows);
-		double y1 = round(v.height * (i / columns + 1) / rows);
-		*b = (struct box_px){ v.x + x0, v.y + y0, x1 - x0, y1 - y0 };
-		if (n > 1) { /* the rule between them */
-			b->width -= x1 < v.width;
-			b->height -= y1 < v.height;
-		}
-	}
+	for (int i = 0; i < n; i++)
+		d->tiles[i].box =
+		        (struct box_px){ v.x + px[i].x, v.y + px[i].y, px[i].width, px[i].height };
 }
 
 static void size_camera(struct desk_tile *t)
@@ -41,14 +27,8 @@ static void size_camera(struct desk_tile *t)
 /* Which of the things a view shows; a child that is not there yet leaves its view empty. */
 static void choose_things(struct desk *d)
 {
-	const struct Ful *parent = NULL, *child = NULL;
-
-	if (d->split == SPLIT_CHILD)
-		world_family(d->world, &parent, &child);
-	for (int i = 0; i < d->n_tiles; i++) {
-		const struct Ful *f = i ? child : parent;
-		d->tiles[i].view.only = d->split != SPLIT_CHILD ? 0 : f ? f->id : -1;
-	}
+	for (int i = 0; i < d->n_tiles; i++)
+		d->tiles[i].view.only = view_tile_only(d->world, d->split, i);
 }
 
 /* The second view of the same begins beside the first. */
@@ -100,7 +80,7 @@ void desk_views_place(struct desk *d)
 	if (!d->errand)
 		split_views(d);
 	const int n = d->n_tiles;
-	place_tiles(d, n);
+	place_tiles(d);
 	const bool resized =
 	        was.width != d->tiles[0].box.width || was.height != d->tiles[0].box.height;
 	const bool again = resized && is_as_fitted(d);

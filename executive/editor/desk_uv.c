@@ -11,14 +11,9 @@ static const double MARGIN = 0.04, RANGE_LEAST = 1e-9, RANGE_MOST = 100;
 
 /* ------------------------------------------------------------ what is seen of it */
 
-/* Of the curve that was selected last the surface it lies on, else the current one. */
 const struct Ful *desk_uv_surface(const struct desk *d)
 {
-	const struct Ful *f = world_selected(d->world);
-
-	if (f && f->entity.kind == ENTITY_CURVE_ON_SURFACE && world_by_id(d->world, f->on))
-		return world_by_id(d->world, f->on);
-	return world_current(d->world, false);
+	return view_plane_surface(d->world);
 }
 
 void desk_uv_fit(struct desk *d)

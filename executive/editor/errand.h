@@ -11,8 +11,8 @@
 struct errand; /* opaque */
 
 /* As the `picture` of an act. */
-typedef enum status errand_picture(const struct world *w, const char *path, const char *view,
-                                   int width, int height, const struct report *r);
+typedef enum status errand_picture(const struct world *w, const struct picture_wish *wish,
+                                   const struct report *r);
 
 /* world and project are borrowed until the errand is destroyed; names and values are copied. picture
  * may be NULL.

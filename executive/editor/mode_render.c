@@ -119,11 +119,29 @@ static enum status set_image(struct request *q, const char *value)
 	return ST_OK;
 }
 
+static enum status set_split(struct request *q, const char *value)
+{
+	for (int k = PICTURE_ONE; k < N_PICTURE_VIEWS; k++)
+		if (k != PICTURE_CHILD && !strcmp(value, picture_views_words[k])) {
+			q->options.views = (enum picture_views)k;
+			return ST_OK;
+		}
+	return report_error(&q->report, ST_PARAMETER,
+	                    "--split '%s': expected one, side, uv or curvatures", value);
+}
+
+static enum status set_beside(struct request *q, const char *value)
+{
+	q->options.beside = value;
+	return ST_OK;
+}
+
 static const struct setter {
 	const char *name;
 	enum status (*set)(struct request *q, const char *value);
 } setters[] = {
 	{ "--background", set_background },
+	{ "--beside", set_beside },
 	{ "--image", set_image },
 	{ "--lines", set_lines },
 	{ "--look", set_look },
@@ -132,6 +150,7 @@ static const struct setter {
 	{ "--quantity", set_quantity },
 	{ "--scale", set_scale },
 	{ "--size", set_size },
+	{ "--split", set_split },
 	{ "--theme", set_theme },
 	{ "--title", set_title },
 	{ "--view", set_view },
@@ -198,7 +217,7 @@ static enum status set_looks(struct request *q)
 	enum surface_look look = LOOK_WIRE;
 	if (q->look)
 		look = *q->look == 's' ? LOOK_SHADED : *q->look == 'm' ? LOOK_MAP : LOOK_WIRE;
-	else if (q->map || q->options.has_quantity)
+	else if (q->map || q->options.has_quantity || q->options.views == PICTURE_CURVATURES)
 		look = LOOK_MAP;
 	else
 		look = LOOK_SHADED;

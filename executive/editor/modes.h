@@ -3,7 +3,7 @@
 #ifndef BATTEN_MODES_H
 #define BATTEN_MODES_H
 
-#include "world.h"
+#include "routine.h"
 
 /* Options by name and value as `batten render` checked them, and files. */
 int mode_render(int argc, char **argv);
@@ -14,8 +14,8 @@ int mode_routines(int argc, char **argv);
 int mode_script(int argc, char **argv);
 
 /* The `picture` of an act; only where there is a view (BATTEN_VIEW). */
-enum status editor_picture(const struct world *w, const char *path, const char *view, int width,
-                           int height, const struct report *r);
+enum status editor_picture(const struct world *w, const struct picture_wish *wish,
+                           const struct report *r);
 
 /* Files: the window on the project of the current folder, with these beside what its session kept. Returns
  * when it is closed. Exit status: 0; 1 where there is no display, no OpenGL 3.3, or the display went

@@ -130,21 +130,37 @@ static enum status fill_in(const struct routine *t, const struct argument_row *r
 	return st;
 }
 
-/* A picture that was not told a view is made from where the window looks when it begins; the journal says
- * from where, so that it is the same picture again. In the room that full has for all rows. */
-static void fill_in_camera(struct arguments *full, char room[CAMERA_TEXT_SIZE],
-                           const struct world *w)
+/* A camera under that name. In the room that full has for all rows. */
+static void fill_in_camera(struct arguments *full, const char *name, char room[CAMERA_TEXT_SIZE],
+                           const struct camera *camera, const char *otherwise)
+{
+	if (argument_text(full, name))
+		return;
+	if (camera)
+		camera_write(room, camera);
+	else
+		strcpy(room, otherwise);
+	full->name[full->n] = name;
+	full->value[full->n++] = room;
+}
+
+/* A picture that was not told a view is made from where the window looks when it begins, and of what it has
+ * beside each other; the journal says which, so that it is the same picture again. */
+static void fill_in_sight(struct arguments *full, char room[2][CAMERA_TEXT_SIZE],
+                          const struct world *w)
 {
 	const struct sight *s = world_sight((struct world *)w);
+	const char *shown = s->all_curvatures ? "curvatures" : view_split_words[s->split];
 
-	if (argument_text(full, "view"))
-		return;
-	if (s->has_camera)
-		camera_write(room, &s->camera);
-	else
-		strcpy(room, "three-quarter");
-	full->name[full->n] = "view";
-	full->value[full->n++] = room;
+	for (int k = 0; k < full->n; k++)
+		if (!strcmp(full->name[k], "views")) {
+			if (!strcmp(full->value[k], "shown"))
+				full->value[k] = shown;
+			shown = full->value[k];
+		}
+	fill_in_camera(full, "view", room[0], s->has_camera ? &s->camera : NULL, "three-quarter");
+	if (!strcmp(shown, view_split_words[SPLIT_SIDE]))
+		fill_in_camera(full, "beside", room[1], s->has_beside ? &s->beside : NULL, "top");
 }
 
 static enum status call_with_rows(const struct routine *t, struct act *a,
@@ -155,7 +171,7 @@ static enum status call_with_rows(const struct routine *t, struct act *a,
 		n++;
 	struct arguments full = { calloc(n + 1, sizeof *full.name),
 		                  calloc(n + 1, sizeof *full.value), 0 };
-	char camera[CAMERA_TEXT_SIZE];
+	char camera[2][CAMERA_TEXT_SIZE];
 	enum status st = full.name && full.value ? ST_OK : act_memory(a);
 
 	if (st == ST_OK)
@@ -163,7 +179,7 @@ static enum status call_with_rows(const struct routine *t, struct act *a,
 	if (st == ST_OK)
 		st = fill_in(t, rows, given, &full, a);
 	if (st == ST_OK && t->run == files_picture)
-		fill_in_camera(&full, camera, a->world);
+		fill_in_sight(&full, camera, a->world);
 	if (st == ST_OK) {
 		a->routine = t;
 		a->n_jobs = 0;

@@ -244,9 +244,13 @@ enum status files_picture(struct act *a, const struct arguments *given)
 		                    "there is no view to make a picture of; use batten-editor");
 	argument_pair(argument_text(given, "size"), 'x', &width, &height);
 	char *path = act_path(a, argument_text(given, "to"));
-	enum status st = path ? a->picture(a->world, path, argument_text(given, "view"), (int)width,
-	                                   (int)height, &a->report)
-	                      : act_memory(a);
+	const struct picture_wish wish = { .path = path,
+		                           .view = argument_text(given, "view"),
+		                           .beside = argument_text(given, "beside"),
+		                           .views = argument_text(given, "views"),
+		                           .width = (int)width,
+		                           .height = (int)height };
+	enum status st = path ? a->picture(a->world, &wish, &a->report) : act_memory(a);
 	if (st == ST_OK)
 		act_say(a, "picture in %s", path_file_name(path));
 	free(path);

@@ -61,6 +61,16 @@ struct arguments {
 	int n;
 };
 
+/* A picture of what the window shows. */
+struct picture_wish {
+	const char *path;
+	const char *view,
+	        *beside; /* as camera_fit takes them; NULL: as the window, of the second of two sides */
+	const char *
+	        views; /* of those beside each other: "shown", "one", a word of view_split_words, "curvatures" */
+	int width, height; /* px */
+};
+
 /*
  * What a routine works with. Everything is borrowed. say tells the user what happened in a sentence
  * ("94 branches"); report takes errors. stop may be NULL.
@@ -81,8 +91,8 @@ struct act {
 	bool journal; /* what was done is written to the journal */
 	bool quit;    /* set by QUIT */
 	/* The view as a picture (EXPORT PICTURE); NULL: there is no view. */
-	enum status (*picture)(const struct world *w, const char *path, const char *view, int width,
-	                       int height, const struct report *r);
+	enum status (*picture)(const struct world *w, const struct picture_wish *wish,
+	                       const struct report *r);
 };
 
 typedef enum status routine_run(struct act *a, const struct arguments *given);

@@ -44,6 +44,8 @@ const struct argument_row rows_picture[] = {
 	WRITE("to", "File", "*.png *.svg *.pdf", "file to write; its extension says in which format"),
 	KIND(SIZE, "size", "Size", "1920x1200", "width and height in px"),
 	MAY(VIEW, "view", "View", NULL, "from where it is seen; as the window shows it where left out"),
+	CHOICE("views", "Views", "shown", "shown|one|side|child|uv|curvatures", "what is beside each other; shown: as the window has it"),
+	MAY(VIEW, "beside", "Beside", NULL, "from where the second of two sides is seen; as the window shows it where left out"),
 	END };
 const struct argument_row rows_quit[] = {
 	{ .name = "unsaved", .type = ARGUMENT_CHOICE, .prompt = "Unsaved geometry", .choices = "save|discard|keep",

@@ -8,6 +8,7 @@
 #ifndef BATTEN_PICTURE_H
 #define BATTEN_PICTURE_H
 
+#include <cairo.h>
 #include <stddef.h>
 
 #include "camera.h"
@@ -50,6 +51,13 @@ struct picture_curve {
 	const char *label; /* or NULL; written on the curve where there is room */
 };
 
+struct picture_text {
+	double x,
+	        y; /* px: of the baseline the left end (align 0), the middle (0.5), the right one (1) */
+	double align;
+	const char *text;
+};
+
 struct picture_lines {
 	const struct camera *camera;
 	const struct surface *const *surfaces; /* isoparametric lines, light; borders stronger */
@@ -59,11 +67,25 @@ struct picture_lines {
 	const char *title, *note;            /* may be NULL */
 	const struct curve *wires, *borders; /* lines like the surfaces', of trimmed faces */
 	size_t n_wires, n_borders;
+	const struct picture_text *texts; /* small ones at places of their own */
+	size_t n_texts;
 };
 
 enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF };
 enum status picture_lines(const char *path, enum picture_format format,
                           const struct picture_lines *lines, enum theme theme,
                           const struct report *r);
+
+/* Several on one sheet, each as large as its camera's image and cut there. */
+struct picture_pane {
+	const struct picture_lines *lines;
+	int x, y; /* px, of its upper left corner */
+};
+enum status picture_panes(const char *path, enum picture_format format, int width, int height,
+                          const struct picture_pane *panes, int n, enum theme theme,
+                          const struct report *r);
+
+/* One of them alone, where Cairo draws already; its upper left corner is the origin. */
+enum status picture_pane_draw(cairo_t *cr, const struct picture_lines *lines, enum theme theme);
 
 #endif

@@ -1,5 +1,6 @@
 /* picture_lines.c - wire frames and curves, as PNG, SVG or PDF. */
 #include <math.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <cairo-pdf.h>
@@ -38,9 +39,8 @@ static void draw_plate(cairo_t *cr, const struct scene_text *t, struct rgb groun
 	cairo_fill(cr);
 }
 
-static void draw(struct sheet *sheet, const struct scene_lines *s)
+static void draw(cairo_t *cr, const struct scene_lines *s)
 {
-	cairo_t *cr = sheet->cr;
 	cairo_set_source_rgb(cr, s->ground.r, s->ground.g, s->ground.b);
 	cairo_paint(cr);
 	cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
@@ -55,16 +55,35 @@ static void draw(struct sheet *sheet, const struct scene_lines *s)
 	}
 }
 
+static void draw_sheet(cairo_t *cr, const struct scene_sheet *s)
+{
+	if (s->n == 1) {
+		draw(cr, s->scenes);
+		return;
+	}
+	cairo_set_source_rgb(cr, s->rule.r, s->rule.g, s->rule.b);
+	cairo_paint(cr);
+	for (int i = 0; i < s->n; i++) {
+		const struct scene_lines *x = &s->scenes[i];
+		cairo_save(cr);
+		cairo_rectangle(cr, x->x, x->y, x->width, x->height);
+		cairo_clip(cr);
+		cairo_translate(cr, x->x, x->y);
+		draw(cr, x);
+		cairo_restore(cr);
+	}
+}
+
 /* A point for a px. Its dates would differ from time to time: one is set. */
-static enum status write_pdf(const struct scene_lines *scene, const char *path,
+static enum status write_pdf(const struct scene_sheet *scenes, const char *path,
                              const struct report *r)
 {
-	struct sheet s = { .width = scene->width, .height = scene->height };
-	s.surface = cairo_pdf_surface_create(path, scene->width, scene->height);
+	struct sheet s = { .width = scenes->width, .height = scenes->height };
+	s.surface = cairo_pdf_surface_create(path, scenes->width, scenes->height);
 	cairo_pdf_surface_set_metadata(s.surface, CAIRO_PDF_METADATA_CREATE_DATE,
 	                               "2000-01-01T00:00:00Z");
 	s.cr = cairo_create(s.surface);
-	draw(&s, scene);
+	draw_sheet(s.cr, scenes);
 	cairo_show_page(s.cr);
 	cairo_status_t drawn = cairo_status(s.cr);
 	cairo_surface_finish(s.surface);
@@ -78,31 +97,63 @@ static enum status write_pdf(const struct scene_lines *scene, const char *path,
 	                    cairo_status_to_string(drawn));
 }
 
+static enum status write_sheet(struct sheet *sheet, const struct scene_sheet *s, const char *path,
+                               enum picture_format format, const struct report *r)
+{
+	if (format == PICTURE_PDF)
+		return write_pdf(s, path, r);
+	if (format == PICTURE_SVG)
+		return svg_write(s, path, r);
+	draw_sheet(sheet->cr, s);
+	return sheet_write(sheet, path, r);
+}
+
+enum status picture_panes(const char *path, enum picture_format format, int width, int height,
+                          const struct picture_pane *panes, int n, enum theme theme,
+                          const struct report *r)
+{
+	const bool png = format == PICTURE_PNG;
+	struct sheet sheet = { .surface = NULL };
+	struct scene_sheet s = { .width = width,
+		                 .height = height,
+		                 .rule = theme_color(theme, TOKEN_LINE),
+		                 .scenes = calloc((size_t)n + 1, sizeof *s.scenes) };
+	if (!s.scenes)
+		return report_error(r, ST_RESOURCE, "cannot draw '%s': no memory", path);
+	enum status st = sheet_init(&sheet, path, png ? width : 0, png ? height : 0, r);
+	for (int i = 0; i < n && !st; i++) {
+		st = scene_lines_init(&s.scenes[i], panes[i].lines, theme, sheet.cr);
+		if (st)
+			report_error(r, st, "cannot draw '%s': %s", path, status_text(st));
+		s.scenes[i].x = panes[i].x;
+		s.scenes[i].y = panes[i].y;
+		s.n++;
+	}
+	if (!st)
+		st = write_sheet(&sheet, &s, path, format, r);
+	for (int i = 0; i < s.n; i++)
+		scene_lines_finish(&s.scenes[i]);
+	free(s.scenes);
+	sheet_finish(&sheet);
+	return st;
+}
+
 enum status picture_lines(const char *path, enum picture_format format,
                           const struct picture_lines *lines, enum theme theme,
                           const struct report *r)
 {
-	struct sheet sheet;
+	const struct picture_pane pane = { .lines = lines };
+	return picture_panes(path, format, lines->camera->width, lines->camera->height, &pane, 1,
+	                     theme, r);
+}
+
+enum status picture_pane_draw(cairo_t *cr, const struct picture_lines *lines, enum theme theme)
+{
 	struct scene_lines scene;
-	bool png = format == PICTURE_PNG;
-	enum status st = sheet_init(&sheet, path, png ? lines->camera->width : 0,
-	                            png ? lines->camera->height : 0, r);
+	enum status st = scene_lines_init(&scene, lines, theme, cr);
 	if (st)
 		return st;
-	st = scene_lines_init(&scene, lines, theme, sheet.cr);
-	if (st) {
-		sheet_finish(&sheet);
-		return report_error(r, st, "cannot draw '%s': %s", path, status_text(st));
-	}
-	if (png) {
-		draw(&sheet, &scene);
-		st = sheet_write(&sheet, path, r);
-	} else if (format == PICTURE_PDF) {
-		st = write_pdf(&scene, path, r);
-	} else {
-		st = svg_write(&scene, path, r);
-	}
+	draw(cr, &scene);
 	scene_lines_finish(&scene);
-	sheet_finish(&sheet);
-	return st;
+	return ST_OK;
 }

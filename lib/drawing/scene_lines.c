@@ -123,6 +123,18 @@ static void add_heading(struct scene_lines *s, const char *text, enum label_styl
 			                                      .text = text };
 }
 
+static void add_small(struct scene_lines *s, const struct picture_text *t, struct rgb color,
+                      cairo_t *cr)
+{
+	const double width = label_width(cr, LABEL_NOTE, t->text);
+	s->texts[s->n_texts++] = (struct scene_text){ .x = t->x - t->align * width,
+		                                      .y = t->y,
+		                                      .width = width,
+		                                      .style = LABEL_NOTE,
+		                                      .color = color,
+		                                      .text = t->text };
+}
+
 enum status scene_lines_init(struct scene_lines *s, const struct picture_lines *lines,
                              enum theme theme, cairo_t *cr)
 {
@@ -132,7 +144,7 @@ enum status scene_lines_init(struct scene_lines *s, const struct picture_lines *
 		                   .height = lines->camera->height,
 		                   .ground = theme_color(theme, TOKEN_VIEW) };
 	s->lines = calloc(2 + lines->n_curves, sizeof *s->lines);
-	s->texts = calloc(2 + lines->n_curves, sizeof *s->texts);
+	s->texts = calloc(2 + lines->n_curves + lines->n_texts, sizeof *s->texts);
 	if (!s->lines || !s->texts) {
 		scene_lines_finish(s);
 		return ST_RESOURCE;
@@ -142,6 +154,8 @@ enum status scene_lines_init(struct scene_lines *s, const struct picture_lines *
 	s->lines[1] = (struct scene_line){ .style = border, .what = "border" };
 	add_heading(s, lines->title, LABEL_HEADING, PAD + 10, theme_color(theme, TOKEN_TEXT), cr);
 	add_heading(s, lines->note, LABEL_NOTE, PAD + 28, theme_color(theme, TOKEN_MUTED), cr);
+	for (size_t i = 0; i < lines->n_texts; i++)
+		add_small(s, &lines->texts[i], theme_color(theme, TOKEN_MUTED), cr);
 
 	enum status st = ST_OK;
 	for (int i = 0; i < lines->n_surfaces && !st; i++)

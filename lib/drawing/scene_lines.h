@@ -28,6 +28,7 @@ struct scene_text {
 };
 
 struct scene_lines {
+	int x, y; /* of its upper left corner on the sheet */
 	int width, height;
 	struct rgb ground;
 	struct scene_line *lines; /* owned */
@@ -44,7 +45,15 @@ void scene_lines_finish(struct scene_lines *s);
 /* Where a text's plate lies. */
 void scene_plate(const struct scene_text *t, double box[4]);
 
-/* SVG 1.1, the same text for the same scene. */
-enum status svg_write(const struct scene_lines *s, const char *path, const struct report *r);
+/* What one or several scenes are on. */
+struct scene_sheet {
+	int width, height;
+	struct rgb rule; /* between scenes */
+	struct scene_lines *scenes;
+	int n;
+};
+
+/* SVG 1.1, the same text for the same scenes. */
+enum status svg_write(const struct scene_sheet *s, const char *path, const struct report *r);
 
 #endif

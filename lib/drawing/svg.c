@@ -142,12 +142,9 @@ static void add_text(struct text *t, const struct scene_text *x, struct rgb grou
 	text_add(t, "</text>\n");
 }
 
-static void format(struct text *t, const struct scene_lines *s)
+static void add_scene(struct text *t, const struct scene_lines *s)
 {
-	text_addf(t,
-	          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
-	          "viewBox=\"0 0 %d %d\">\n<rect width=\"%d\" height=\"%d\"",
-	          s->width, s->height, s->width, s->height, s->width, s->height);
+	text_addf(t, "<rect width=\"%d\" height=\"%d\"", s->width, s->height);
 	add_color(t, "fill", s->ground);
 	text_add(t, "/>\n<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
 	for (size_t i = 0; i < s->n_lines; i++)
@@ -155,10 +152,34 @@ static void format(struct text *t, const struct scene_lines *s)
 	text_addf(t, "</g>\n<g font-family=\"%s\">\n", label_families);
 	for (size_t i = 0; i < s->n_texts; i++)
 		add_text(t, &s->texts[i], s->ground);
-	text_add(t, "</g>\n</svg>\n");
+	text_add(t, "</g>\n");
 }
 
-enum status svg_write(const struct scene_lines *s, const char *path, const struct report *r)
+/* A scene of several is an image within the image, which cuts it at its edges. */
+static void format(struct text *t, const struct scene_sheet *s)
+{
+	text_addf(t,
+	          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
+	          "viewBox=\"0 0 %d %d\">\n",
+	          s->width, s->height, s->width, s->height);
+	if (s->n == 1) {
+		add_scene(t, s->scenes);
+	} else {
+		text_addf(t, "<rect width=\"%d\" height=\"%d\"", s->width, s->height);
+		add_color(t, "fill", s->rule);
+		text_add(t, "/>\n");
+		for (int i = 0; i < s->n; i++) {
+			const struct scene_lines *x = &s->scenes[i];
+			text_addf(t, "<svg x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\">\n", x->x,
+			          x->y, x->width, x->height);
+			add_scene(t, x);
+			text_add(t, "</svg>\n");
+		}
+	}
+	text_add(t, "</svg>\n");
+}
+
+enum status svg_write(const struct scene_sheet *s, const char *path, const struct report *r)
 {
 	struct text t = { .s = NULL };
 	format(&t, s);

@@ -45,14 +45,11 @@ static bool port_start(void *data, struct errand *e)
 	return s->keep_errands;
 }
 
-enum status stand_picture(const struct world *w, const char *path, const char *view, int width,
-                          int height, const struct report *r)
+enum status stand_picture(const struct world *w, const struct picture_wish *wish,
+                          const struct report *r)
 {
 	(void)w;
-	(void)view;
-	(void)width;
-	(void)height;
-	return file_write(path, "a picture", 9, r);
+	return file_write(wish->path, "a picture", 9, r);
 }
 
 static bool port_pick(void *data, const struct view_state *v, double x, double y, bool points,

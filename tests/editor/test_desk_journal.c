@@ -16,6 +16,7 @@
 #include "file.h"
 #include "journal_folders.h"
 #include "json.h"
+#include "modes.h"
 #include "open.h"
 #include "path.h"
 #include "text.h"
@@ -92,6 +93,7 @@ static const char *const steps[] = {
 	"V71",
 	"V76 size=32x24 samples=1",
 	"V79",
+	"V179 to=seven.png size=640x400",
 	"V90",
 	"V90 surfaces=current",
 	"V94",
@@ -122,6 +124,9 @@ static const char *const steps[] = {
 	"V166 field=25",
 	"V167 on=no",
 	"V188 views=side",
+	"V179 to=side.png size=320x200",
+	"V179 to=side.svg size=320x200",
+	"V179 to=plane.pdf size=320x200 views=uv",
 	"V162",
 	"V163",
 	"V164",
@@ -270,16 +275,9 @@ static void drag(struct stand *s)
 	assert_memory_not_equal(&before, &world_sight(s->world)->camera.eye, sizeof before);
 }
 
-/* As the window draws it. */
-static enum status draw_picture(const struct world *w, const char *path, const char *view,
-                                int width, int height, const struct report *r)
-{
-	return render_picture(w, path, view, width, height, THEME_LIGHT, r);
-}
-
 static int set_up(void **state)
 {
-	return stand_set_up_drawing(state, draw_picture);
+	return stand_set_up_drawing(state, editor_picture);
 }
 
 static void choose(struct stand *s, const char *step)
@@ -388,7 +386,7 @@ static void every_leaf_is_in_the_journal_and_done_again(void **state)
 		         .project = &project,
 		         .report = said.report,
 		         .wait = true,
-		         .picture = draw_picture };
+		         .picture = editor_picture };
 	if (script_run(&a, path, false, &failed) != ST_OK)
 		fail_msg("%s", said.error);
 	char *here = session_of(s->world, s->folder), *there = session_of(w, twice);

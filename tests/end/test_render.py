@@ -49,6 +49,25 @@ def test_same_bytes_again(project):
     assert content(project, "a.pdf")[:5] == b"%PDF-"
 
 
+def test_views_beside_each_other(project):
+    """The halves of a split picture are the pictures of each alone but for their rule and their headings."""
+    seen = set()
+    for split in ("one", "side", "uv", "curvatures"):
+        for name in ("a.png", "a.svg", "a.pdf"):
+            render(project, HULL, "--size", "300x200", "--split", split, "-o", name)
+            before = content(project, name)
+            render(project, HULL, "--size", "300x200", "--split", split, "-o", name)
+            assert before == content(project, name), (split, name)
+        seen.add(content(project, "a.png"))
+        svg = content(project, "a.svg").decode()
+        # maps are no lines: seven of them are one view
+        assert svg.count("<svg") == (3 if split in ("side", "uv") else 1), (split, svg.count("<svg"))
+        assert ("Parameter plane of hull-1" in svg) == (split == "uv"), split
+    assert len(seen) == 4
+    render(project, HULL, "--size", "300x200", "--split", "side", "--beside", "left", "-o", "a.png")
+    assert content(project, "a.png") not in seen
+
+
 def test_lines_of_a_result(project):
     render(project, HULL + "#1", "--size", "300x200", "-o", "without.png")
     project.run("batten-isophotes", HULL + "#1", "--from", "20", "--to", "140", "--count", "7", "-o", "hull")
@@ -65,6 +84,8 @@ def test_failures_leave_nothing(project):
             (2, "expected wire, shaded or map", [HULL, "-o", "a.png", "--look", "x-ray"]),
             (2, "expected K, H", [HULL, "-o", "a.png", "--quantity", "J"]),
             (2, "expected three-quarter", [HULL, "-o", "a.png", "--view", "sideways"]),
+            (2, "expected one, side, uv", [HULL, "-o", "a.png", "--split", "child"]),
+            (2, "expected three-quarter", [HULL, "-o", "a.png", "--split", "side", "--beside", "sideways"]),
             (2, "expected WxH", [HULL, "-o", "a.png", "--size", "10"]),
             (2, "name what to draw", ["-o", "a.png"]),
             (2, "name what to draw", [HULL]),

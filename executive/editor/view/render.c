@@ -10,7 +10,7 @@
 #include "sheet.h"
 #include "view_private.h"
 
-enum { PAD = 16, KEY_RIGHT = 90, SIDE_MAX = 16384 };
+enum { PAD = 16, KEY_RIGHT = 90, BELOW_HEADING = 24, SIDE_MAX = 16384 };
 
 static const struct format {
 	const char *extension;
@@ -72,41 +72,73 @@ static const char *key_unit(const struct world *w, int quantity, char out[64])
 	return out;
 }
 
-static void write_words(struct sheet *s, struct view *v, const struct world *w,
-                        const struct render_options *o, enum theme set)
+static void write_heading(cairo_t *cr, const struct render_tile *t, enum theme set)
 {
-	struct text title = { .s = NULL }, note = { .s = NULL };
-	struct key key;
-	cairo_t *cr = s->cr;
-	render_words(w, o, &title, &note);
-	cairo_scale(cr, o->scale, o->scale);
-	if (title.s)
+	if (t->title.s)
 		label_draw(cr, LABEL_HEADING, theme_color(set, TOKEN_TEXT), PAD, PAD + 12, 0,
-		           title.s);
-	if (note.s)
-		label_draw(cr, LABEL_NOTE, theme_color(set, TOKEN_MUTED), PAD, PAD + 30, 0, note.s);
-	text_finish(&title);
-	text_finish(&note);
-	if (!view_key(v, &key))
-		return;
-	const double high = s->height / o->scale, wide = s->width / o->scale;
-	key.bar = fmin(fmax(floor(0.28 * high), 140), 320);
-	char unit[64];
-	key.unit = key_unit(w, render_quantity(w, o), unit);
-	double width = fmax(key_width(cr, &key), KEY_RIGHT - PAD);
-	key_draw(cr, &key, floor(wide - PAD - width), PAD);
+		           t->title.s);
+	if (t->note.s)
+		label_draw(cr, LABEL_NOTE, theme_color(set, TOKEN_MUTED), PAD, PAD + 30, 0,
+		           t->note.s);
 }
 
-static enum status draw_to(struct sheet *s, struct view *v, const struct world *w,
-                           const struct view_state *state, const struct report *r)
+static void write_key(cairo_t *cr, const struct world *w, const struct render_tile *t,
+                      struct key *key, int quantity, double scale)
 {
+	const double high = t->height / scale;
+	char unit[64];
+	key->bar = fmin(fmax(floor(0.28 * high), 140), 320);
+	key->unit = key_unit(w, quantity, unit);
+	const double width = fmax(key_width(cr, key), KEY_RIGHT - PAD);
+	key_draw(cr, key, floor(t->width / scale - PAD - width),
+	         PAD + (t->seen < t->width ? BELOW_HEADING : 0));
+}
+
+static enum status draw_plane(cairo_t *cr, const struct world *w, const struct render_tile *t,
+                              enum theme set)
+{
+	struct plane_lines p;
+	enum status st = plane_lines_init(&p, w, t, set);
+	p.lines.title = p.lines.note = NULL;
+	if (st == ST_OK)
+		st = picture_pane_draw(cr, &p.lines, set);
+	plane_lines_finish(&p);
+	return st;
+}
+
+static void clear(int x, int y, int width, int height, struct rgb c)
+{
+	glEnable(GL_SCISSOR_TEST);
+	glScissor(x, y, width, height);
+	glClearColor((float)c.r, (float)c.g, (float)c.b, 1);
+	glClear(GL_COLOR_BUFFER_BIT);
+	glDisable(GL_SCISSOR_TEST);
+}
+
+/* The views into one image; *keys: of those that have one. */
+static enum status draw_to(struct sheet *s, struct view *v, const struct world *w,
+                           const struct render_tiles *tiles, struct key *keys, bool *has_key,
+                           const struct report *r)
+{
+	const struct sight *sight = world_sight((struct world *)w);
+	const struct rgb ground = sight->has_background
+	                                  ? sight->background
+	                                  : theme_color(tiles->tile[0].state.theme, TOKEN_VIEW);
 	struct target t = { 0 };
-	bool more = true;
 	enum status st = target_init(&t, s->width, s->height, 0, r);
-	/* values of a job that still runs are taken as they are; triangles are waited for */
-	for (int k = 0; k < 10000 && more && st == ST_OK; k++) {
-		glBindFramebuffer(GL_FRAMEBUFFER, t.frame);
-		st = view_draw(v, w, state, 0, 0, s->width, s->height, &more, r);
+	glBindFramebuffer(GL_FRAMEBUFFER, t.frame);
+	clear(0, 0, s->width, s->height, theme_color(tiles->tile[0].state.theme, TOKEN_LINE));
+	for (int i = 0; i < tiles->n; i++) {
+		const struct render_tile *x = &tiles->tile[i];
+		bool more = !x->is_plane && !x->is_empty;
+		clear(x->x, s->height - x->y - x->height, x->width, x->height, ground);
+		/* values of a job that still runs are taken as they are; triangles are waited for */
+		for (int k = 0; k < 10000 && more && st == ST_OK; k++) {
+			glBindFramebuffer(GL_FRAMEBUFFER, t.frame);
+			st = view_draw(v, w, &x->state, x->x, s->height - x->y - x->height, x->seen,
+			               x->height, &more, r);
+		}
+		has_key[i] = x->has_key && view_key(v, &keys[i]);
 	}
 	glBindFramebuffer(GL_FRAMEBUFFER, t.frame);
 	if (st == ST_OK)
@@ -115,44 +147,57 @@ static enum status draw_to(struct sheet *s, struct view *v, const struct world *
 	return st;
 }
 
+/* What Cairo draws, over the views. */
+static enum status write_over(struct sheet *s, const struct world *w,
+                              const struct render_tiles *tiles, struct key *keys,
+                              const bool *has_key, const struct render_options *o)
+{
+	const struct sight *sight = world_sight((struct world *)w);
+	const enum theme set = sight->has_background ? ground_theme(sight->background) : o->theme;
+	enum status st = ST_OK;
+	for (int i = 0; i < tiles->n && st == ST_OK; i++) {
+		const struct render_tile *t = &tiles->tile[i];
+		const int quantity =
+		        t->state.quantity >= 0 ? t->state.quantity : render_quantity(w, o);
+		cairo_save(s->cr);
+		cairo_rectangle(s->cr, t->x, t->y, t->width, t->height);
+		cairo_clip(s->cr);
+		cairo_translate(s->cr, t->x, t->y);
+		cairo_scale(s->cr, o->scale, o->scale);
+		if (t->is_plane)
+			st = draw_plane(s->cr, w, t, o->theme);
+		write_heading(s->cr, t, t->is_plane ? o->theme : set);
+		if (has_key[i])
+			write_key(s->cr, w, t, &keys[i], quantity, o->scale);
+		cairo_restore(s->cr);
+	}
+	return st;
+}
+
 static enum status render_png(const struct world *w, const char *path,
-                              const struct render_options *o, struct view_state *state,
+                              const struct render_options *o, const struct render_tiles *tiles,
                               const struct report *r)
 {
 	struct offscreen *screen = NULL;
 	struct view *v = NULL;
 	struct sheet sheet = { .surface = NULL };
+	struct key keys[N_QUANTITIES + 1];
+	bool has_key[N_QUANTITIES + 1];
 	enum status st = offscreen_create(&screen, r);
 	if (st == ST_OK)
 		st = view_create(&v, r);
 	if (st == ST_OK)
 		st = sheet_init(&sheet, path, o->width, o->height, r);
 	if (st == ST_OK)
-		st = draw_to(&sheet, v, w, state, r);
-	if (st == ST_OK) {
-		const struct sight *sight = world_sight((struct world *)w);
-		enum theme set = sight->has_background ? ground_theme(sight->background) : o->theme;
-		write_words(&sheet, v, w, o, set);
+		st = draw_to(&sheet, v, w, tiles, keys, has_key, r);
+	if (st == ST_OK && write_over(&sheet, w, tiles, keys, has_key, o) != ST_OK)
+		st = report_error(r, ST_RESOURCE, "cannot draw: memory ran out");
+	if (st == ST_OK)
 		st = sheet_write(&sheet, path, r);
-	}
 	sheet_finish(&sheet);
 	view_destroy(v);
 	offscreen_destroy(screen);
 	return st;
-}
-
-static enum status place_camera(struct view_state *state, const struct world *w,
-                                const struct render_options *o, const struct report *r)
-{
-	const struct sight *sight = world_sight((struct world *)w);
-	const int width = (int)lrint(o->width / o->scale),
-	          height = (int)lrint(o->height / o->scale);
-	if (o->view || !sight->has_camera)
-		return view_fit(state, w, o->view, width, height, r);
-	state->camera = sight->camera;
-	state->camera.width = width;
-	state->camera.height = height;
-	return ST_OK;
 }
 
 static enum status check(const struct world *w, const char *path, const struct render_options *o,
@@ -194,22 +239,20 @@ enum status render_write(const struct world *w, const char *path, const struct r
                          const struct report *r)
 {
 	struct render_options all = *o;
+	struct render_tiles tiles = { .n = 0 };
 	const struct format *f = find_format(path);
 	if (!(all.scale > 0))
 		all.scale = 1;
-	struct view_state state = { .theme = all.theme,
-		                    .scale = all.scale,
-		                    .quantity = all.has_quantity ? (int)all.quantity : -1,
-		                    .axes = true,
-		                    .hover_point = -1 };
 	struct whole_file file = { .stream = NULL };
 	enum status st = check(w, path, &all, f, r);
 	if (st == ST_OK)
-		st = place_camera(&state, w, &all, r);
+		st = render_tiles_init(&tiles, w, &all, f->lines, r);
 	if (st == ST_OK)
 		st = whole_file_create(&file, path, r);
-	if (st != ST_OK)
+	if (st != ST_OK) {
+		render_tiles_finish(&tiles);
 		return st;
+	}
 	/* the writers open by name; a file that has none yet is found by its number */
 	char *name =
 	        file.temp ? strdup(file.temp) : text_print("/proc/self/fd/%d", fileno(file.stream));
@@ -218,20 +261,12 @@ enum status render_write(const struct world *w, const char *path, const struct r
 	struct naming naming = { r, name, path };
 	const struct report named = { say_named, &naming };
 	if (name)
-		st = f->lines ? render_lines(w, name, f->format, &state.camera, &all, &named)
-		              : render_png(w, name, &all, &state, &named);
+		st = f->lines ? render_lines(w, name, f->format, &tiles, &all, &named)
+		              : render_png(w, name, &all, &tiles, &named);
 	free(name);
+	render_tiles_finish(&tiles);
 	if (st == ST_OK)
 		return whole_file_commit(&file, r);
 	whole_file_abandon(&file);
 	return st;
-}
-
-enum status render_picture(const struct world *w, const char *path, const char *view, int width,
-                           int height, enum theme theme, const struct report *r)
-{
-	const struct render_options o = {
-		.view = view, .width = width, .height = height, .theme = theme
-	};
-	return render_write(w, path, &o, r);
 }

@@ -226,37 +226,63 @@ static void add_result(struct lines *l, const char *file, const struct report *r
 	}
 }
 
+/* What one view shows. */
+static enum status lines_init(struct lines *l, struct picture_lines *out, const struct world *w,
+                              const struct render_tile *t, enum theme theme, const struct report *r)
+{
+	const int only = t->state.only;
+	*l = (struct lines){ .world = w, .camera = &t->state.camera, .theme = theme };
+	l->ground = theme_color(theme, TOKEN_VIEW);
+	for (int k = 0; k < world_count(w) && l->status == ST_OK; k++)
+		if (only ? world_at(w, k)->id == only : world_at(w, k)->display.on)
+			add_thing(l, world_at(w, k));
+	for (int k = 0; k < world_overlays(w) && l->status == ST_OK; k++) {
+		const struct overlay *o = world_overlay(w, k);
+		if (o->kind == OVERLAY_LINES && o->file && (!only || o->thing == only))
+			add_result(l, o->file, r);
+	}
+	for (int i = 0; i < l->n_curves; i++)
+		if (l->made_at[i] >= 0)
+			l->curves[i].curve = &l->made[l->made_at[i]];
+	*out = (struct picture_lines){ .camera = l->camera,
+		                       .surfaces = l->surfaces,
+		                       .n_surfaces = l->n_surfaces,
+		                       .curves = l->curves,
+		                       .n_curves = (size_t)l->n_curves,
+		                       .title = t->title.s,
+		                       .note = t->note.s };
+	return l->status;
+}
+
 enum status render_lines(const struct world *w, const char *path, enum picture_format format,
-                         const struct camera *camera, const struct render_options *o,
+                         const struct render_tiles *tiles, const struct render_options *o,
                          const struct report *r)
 {
-	struct lines l = { .world = w, .camera = camera, .theme = o->theme };
-	struct text title = { .s = NULL }, note = { .s = NULL };
-	l.ground = theme_color(o->theme, TOKEN_VIEW);
-	for (int k = 0; k < world_count(w) && l.status == ST_OK; k++)
-		if (world_at(w, k)->display.on)
-			add_thing(&l, world_at(w, k));
-	for (int k = 0; k < world_overlays(w) && l.status == ST_OK; k++)
-		if (world_overlay(w, k)->kind == OVERLAY_LINES && world_overlay(w, k)->file)
-			add_result(&l, world_overlay(w, k)->file, r);
-	for (int i = 0; i < l.n_curves; i++)
-		if (l.made_at[i] >= 0)
-			l.curves[i].curve = &l.made[l.made_at[i]];
-	render_words(w, o, &title, &note);
-	const struct picture_lines lines = { .camera = camera,
-		                             .surfaces = l.surfaces,
-		                             .n_surfaces = l.n_surfaces,
-		                             .curves = l.curves,
-		                             .n_curves = (size_t)l.n_curves,
-		                             .title = title.s,
-		                             .note = note.s };
-	enum status st = l.status;
+	enum { MOST = 2 };
+	struct lines l[MOST] = { { .world = w } };
+	struct plane_lines plane = { .curves = NULL };
+	struct picture_lines lines[MOST];
+	struct picture_pane panes[MOST];
+	enum status st = ST_OK;
+	int n = 0;
+	for (; n < tiles->n && n < MOST && st == ST_OK; n++) {
+		const struct render_tile *t = &tiles->tile[n];
+		if (t->is_plane)
+			st = plane_lines_init(&plane, w, t, o->theme);
+		else
+			st = lines_init(&l[n], &lines[n], w, t, o->theme, r);
+		panes[n] = (struct picture_pane){ t->is_plane ? &plane.lines : &lines[n],
+			                          (int)lrint(t->x / o->scale),
+			                          (int)lrint(t->y / o->scale) };
+	}
 	if (st == ST_RESOURCE)
 		report_error(r, st, "cannot draw: memory ran out");
 	if (st == ST_OK)
-		st = picture_lines(path, format, &lines, o->theme, r);
-	text_finish(&title);
-	text_finish(&note);
-	lines_finish(&l);
+		st = picture_panes(path, format, (int)fmax(lrint(o->width / o->scale), 1),
+		                   (int)fmax(lrint(o->height / o->scale), 1), panes, n, o->theme,
+		                   r);
+	for (int i = 0; i < n; i++)
+		lines_finish(&l[i]);
+	plane_lines_finish(&plane);
 	return st;
 }

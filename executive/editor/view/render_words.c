@@ -1,9 +1,8 @@
-/* render_words.c - what a picture of the world shows, in words. */
-#include "render.h"
-
+/* render_words.c - what a picture shows, in words. */
 #include <ctype.h>
 
 #include "path.h"
+#include "render.h"
 #include "view_private.h"
 
 int render_quantity(const struct world *w, const struct render_options *o)
@@ -22,7 +21,7 @@ int render_quantity(const struct world *w, const struct render_options *o)
 	return -1;
 }
 
-static void add_names(struct text *t, const struct world *w)
+void render_add_names(struct text *t, const struct world *w)
 {
 	enum { NAMED = 3 };
 	int n = 0;
@@ -35,10 +34,8 @@ static void add_names(struct text *t, const struct world *w)
 		text_addf(t, " and %d more", n - NAMED);
 }
 
-void render_words(const struct world *w, const struct render_options *o, struct text *title,
-                  struct text *note)
+void render_add_note(struct text *note, const struct world *w, bool named)
 {
-	const int quantity = render_quantity(w, o);
 	int lines = 0;
 	for (int k = 0; k < world_overlays(w); k++) {
 		const struct overlay *x = world_overlay(w, k);
@@ -46,16 +43,29 @@ void render_words(const struct world *w, const struct render_options *o, struct 
 			text_addf(note, "%s%s", lines++ ? ", " : "lines of ",
 			          path_file_name(x->file));
 	}
+	if (named) {
+		text_add(note, lines ? "; " : "");
+		render_add_names(note, w);
+	}
+}
+
+void render_add_quantity(struct text *title, int quantity)
+{
+	const size_t at = title->n;
+	text_add(title, quantity_table[quantity].title);
+	if (title->s)
+		title->s[at] = (char)toupper((unsigned char)title->s[at]);
+}
+
+void render_words(const struct world *w, const struct render_options *o, struct text *title,
+                  struct text *note)
+{
+	const int quantity = render_quantity(w, o);
 	if (o->title)
 		text_add(title, o->title);
 	else if (quantity >= 0)
-		text_add(title, quantity_table[quantity].title);
+		render_add_quantity(title, quantity);
 	else
-		add_names(title, w);
-	if (title->s && quantity >= 0 && !o->title)
-		title->s[0] = (char)toupper((unsigned char)title->s[0]);
-	if (quantity >= 0 || o->title) {
-		text_add(note, lines ? "; " : "");
-		add_names(note, w);
-	}
+		render_add_names(title, w);
+	render_add_note(note, w, quantity >= 0 || o->title);
 }

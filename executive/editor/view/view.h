@@ -3,6 +3,7 @@
 #define BATTEN_VIEW_H
 
 #include "key.h"
+#include "text.h"
 #include "world.h"
 
 enum view_standard {
@@ -85,6 +86,35 @@ struct offscreen;
 enum status offscreen_create(struct offscreen **out, const struct report *r);
 void offscreen_destroy(struct offscreen *o);
 
+/* Views beside each other, as a window has them: where each is, and what the halves of two are. */
+struct tile_px {
+	double x, y, width, height; /* without the rules between them */
+};
+/* Long things lie below each other, a square beside what it is of, seven curvatures four and three; their
+ * number. */
+int view_tiles(enum view_split split, bool curvatures, double width, double height,
+               struct tile_px out[N_QUANTITIES]);
+/* Which thing a half shows: 0: all that are on, -1: none yet. */
+int view_tile_only(const struct world *w, enum view_split split, int half);
+/* The surface whose parameters have a plane: of the curve selected last the one it lies on, else the current
+ * one; NULL: none. */
+const struct Ful *view_plane_surface(const struct world *w);
+/* Heading and note of a half, appended; false: it has those of the whole. */
+bool view_tile_words(const struct world *w, enum view_split split, int half, struct text *title,
+                     struct text *note);
+
+/* What is beside each other in a picture. */
+enum picture_views {
+	PICTURE_SHOWN, /* as the window has it */
+	PICTURE_ONE,
+	PICTURE_SIDE,
+	PICTURE_CHILD,
+	PICTURE_UV,
+	PICTURE_CURVATURES,
+	N_PICTURE_VIEWS
+};
+extern const char *const picture_views_words[N_PICTURE_VIEWS]; /* "shown", "one", "side", ... */
+
 /* How a picture is made; zeroed but for the size: three-quarter view, light theme, scale 1. */
 struct render_options {
 	const char *view; /* as camera_fit takes it; NULL: the sight's camera, else three-quarter */
@@ -94,16 +124,18 @@ struct render_options {
 	bool has_quantity; /* for LOOK_MAP, instead of the overlays' */
 	enum quantity quantity;
 	const char *title; /* NULL: what is shown, in words */
+	enum picture_views views;
+	const char *
+	        beside; /* from where the second of two sides looks; NULL: as the window, else top */
 };
 
 /*
- * The world as a picture with key and title: .png by GL with multisampling, .svg and .pdf for lines.
+ * The world as a picture with key and title: .png by GL with multisampling, .svg and .pdf for lines (of the seven
+ * curvatures one view: maps are no lines).
  * The file appears whole or not at all. Same world, same bytes (of PNG: by the same GL driver).
  * Errors: ST_PARAMETER (extension, view), ST_INPUT (folder), ST_RESOURCE (no GL, full disk).
  */
 enum status render_write(const struct world *w, const char *path, const struct render_options *o,
                          const struct report *r);
-enum status render_picture(const struct world *w, const char *path, const char *view, int width,
-                           int height, enum theme theme, const struct report *r);
 
 #endif
