@@ -8,6 +8,7 @@
 #include "image.h"
 #include "json.h"
 #include "number.h"
+#include "worker_image.h"
 
 enum {
 	TILE = 64,
@@ -129,6 +130,8 @@ static enum status curvature_begin(struct work *w)
 		st = trim_test_create(&s->trim, &w->entities[0]->trim, surface);
 	if (st == ST_OK && work_has(w, "view"))
 		st = curvature_view_create(&s->view, w);
+	if (!s->view)
+		work_units_are_tiles(w, &s->image);
 	return st;
 }
 
@@ -293,31 +296,6 @@ static enum status state_figures(struct work *w)
 	return work_figures(w, figures);
 }
 
-struct map_writer {
-	struct work *w;
-	struct text tile; /* owned; the last one read */
-};
-
-static enum status give_tile(void *data, size_t i, const char **bytes, size_t *n)
-{
-	struct map_writer *x = data;
-	enum status st = work_read(x->w, i, &x->tile);
-	if (st != ST_OK)
-		return st;
-	*bytes = x->tile.s;
-	*n = x->tile.n - sizeof(struct extremes);
-	return ST_OK;
-}
-
-static enum status write_map(void *data, const char *path, const struct report *r)
-{
-	struct map_writer x = { .w = data };
-	const struct state *s = x.w->state;
-	enum status st = curvature_write(x.w, path, &s->image, give_tile, &x, r);
-	text_finish(&x.tile);
-	return st;
-}
-
 /* The map's picture and what is seen from the camera have one key. */
 static enum status make_pictures(struct work *w)
 {
@@ -342,7 +320,7 @@ static enum status curvature_finish(struct work *w)
 	const struct state *s = w->state;
 	enum status st = state_figures(w);
 	if (st == ST_OK)
-		st = work_output(w, ".map.exr", write_map, w);
+		st = work_image(w, ".map.exr", &s->image, 0);
 	if (st == ST_OK && (s->view || work_flag(w, "png")))
 		st = make_pictures(w);
 	return st;

@@ -36,22 +36,6 @@ char *curvature_name(const struct work *w)
 	                           : text_print("surface %d", e->number);
 }
 
-enum status curvature_write(const struct work *w, const char *path, const struct exr_image *image,
-                            exr_source *source, void *data, const struct report *r)
-{
-	struct exr_image whole = *image;
-	const struct work_attribute *a = work_attributes(w, &whole.n_attributes);
-	struct exr_attribute *list = calloc(whole.n_attributes + 1, sizeof *list);
-	if (!list)
-		return ST_RESOURCE;
-	for (int i = 0; i < whole.n_attributes; i++)
-		list[i] = (struct exr_attribute){ a[i].name, a[i].value };
-	whole.attributes = list;
-	enum status st = exr_write(path, &whole, source, data, r);
-	free(list);
-	return st;
-}
-
 /* Rows of points and values, rising v. */
 struct strip {
 	int first, count, width;

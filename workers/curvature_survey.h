@@ -34,10 +34,6 @@ void curvature_survey_finish(struct curvature_survey *s);
 /* A work_writer: the survey as a PNG with axes and key. */
 enum status curvature_survey_write(void *survey, const char *path, const struct report *r);
 
-/* Write an image with the work's attributes. */
-enum status curvature_write(const struct work *w, const char *path, const struct exr_image *image,
-                            exr_source *source, void *data, const struct report *r);
-
 /* What the pictures say; caller frees: the unit, "1/m²"; the quantity; the surface. */
 char *curvature_unit(const struct work *w, enum quantity q);
 char *curvature_title(enum quantity q);

@@ -6,6 +6,7 @@
 #include "curvature_survey.h"
 #include "image.h"
 #include "picture.h"
+#include "worker_image.h"
 
 enum {
 	DEPTH = N_QUANTITIES,
@@ -108,28 +109,10 @@ enum status curvature_view_tile(const struct curvature_view *v, size_t tile, str
 struct finish {
 	const struct curvature_view *view;
 	struct work *w;
-	size_t first;
 	enum quantity shown;
 	const struct colormap *map;
-	struct text tile;        /* owned; the last one read */
 	struct exr_picture seen; /* owned; the image as written */
 };
-
-static enum status give_tile(void *data, size_t i, const char **bytes, size_t *n)
-{
-	struct finish *f = data;
-	enum status st = work_read(f->w, f->first + i, &f->tile);
-	*bytes = f->tile.s;
-	*n = f->tile.n;
-	return st;
-}
-
-static enum status write_image(void *data, const char *path, const struct report *r)
-{
-	struct finish *f = data;
-	enum status st = curvature_write(f->w, path, &f->view->image.exr, give_tile, f, r);
-	return st ? st : exr_read(&f->seen, path, r);
-}
 
 /* The surface grows a little darker towards its rim, so that its form can be seen. */
 static void make_shade(const struct finish *f, float *shade)
@@ -182,11 +165,12 @@ static enum status write_picture(void *data, const char *path, const struct repo
 enum status curvature_view_finish(const struct curvature_view *v, struct work *w, size_t first,
                                   enum quantity shown, const struct colormap *map)
 {
-	struct finish f = { .view = v, .w = w, .first = first, .shown = shown, .map = map };
-	enum status st = work_output(w, ".view.exr", write_image, &f);
+	struct finish f = { .view = v, .w = w, .shown = shown, .map = map };
+	enum status st = work_image(w, ".view.exr", &v->image.exr, first);
+	if (st == ST_OK)
+		st = exr_read(&f.seen, work_made(w, ".view.exr"), &w->report);
 	if (st == ST_OK)
 		st = work_output(w, ".view.png", write_picture, &f);
-	text_finish(&f.tile);
 	exr_picture_finish(&f.seen);
 	return st;
 }

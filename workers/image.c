@@ -6,6 +6,7 @@
 
 #include "json.h"
 #include "picture.h"
+#include "worker_image.h"
 
 enum { PICTURE_SIDE = 32767 }; /* Cairo's limit */
 
@@ -189,53 +190,9 @@ enum status image_gather(const struct image *im, struct work *w, json_t **figure
 	return ST_OK;
 }
 
-struct image_writer {
-	const struct image *im;
-	struct work *w;
-	struct text tile;           /* owned; the last one read */
-	bool keep;                  /* read it back for the picture */
-	struct exr_picture picture; /* owned */
-};
-
-static enum status writer_tile(void *data, size_t i, const char **bytes, size_t *n)
-{
-	struct image_writer *x = data;
-
-	work_phase(x->w, "writing", i, image_units(x->im));
-	enum status st = work_read(x->w, i, &x->tile);
-
-	if (st != ST_OK)
-		return st;
-	*bytes = x->tile.s;
-	*n = x->tile.n - sizeof(struct image_stats);
-	return ST_OK;
-}
-
-static enum status write_image(void *data, const char *path, const struct report *r)
-{
-	struct image_writer *x = data;
-	struct exr_image exr = x->im->exr;
-	int n;
-	const struct work_attribute *list = work_attributes(x->w, &n);
-	struct exr_attribute *attributes = calloc(n + 1, sizeof *attributes);
-
-	if (!attributes)
-		return ST_RESOURCE;
-	for (int i = 0; i < n; i++)
-		attributes[i] = (struct exr_attribute){ list[i].name, list[i].value };
-	exr.attributes = attributes;
-	exr.n_attributes = n;
-	enum status st = exr_write(path, &exr, writer_tile, x, r);
-	free(attributes);
-	if (st == ST_OK && x->keep)
-		st = exr_read(&x->picture, path, r);
-	return st;
-}
-
 static enum status write_picture(void *data, const char *path, const struct report *r)
 {
-	struct image_writer *x = data;
-	const struct exr_picture *p = &x->picture;
+	const struct exr_picture *p = data;
 	const float *rgba[4] = { exr_plane(p, "R"), exr_plane(p, "G"), exr_plane(p, "B"),
 		                 exr_plane(p, "A") };
 
@@ -245,14 +202,15 @@ static enum status write_picture(void *data, const char *path, const struct repo
 enum status image_output(const struct image *im, struct work *w, const char *extension,
                          const char *png, json_t *figures)
 {
-	struct image_writer x = { .im = im, .w = w, .keep = png != NULL };
+	struct exr_picture picture = { 0 };
 	enum status st = work_figures(w, figures);
 
 	if (st == ST_OK)
-		st = work_output(w, extension, write_image, &x);
+		st = work_image(w, extension, &im->exr, 0);
 	if (st == ST_OK && png)
-		st = work_output(w, png, write_picture, &x);
-	text_finish(&x.tile);
-	exr_picture_finish(&x.picture);
+		st = exr_read(&picture, work_made(w, extension), &w->report);
+	if (st == ST_OK && png)
+		st = work_output(w, png, write_picture, &picture);
+	exr_picture_finish(&picture);
 	return st;
 }

@@ -4,6 +4,7 @@
 
 #include "color_image.h"
 #include "look.h"
+#include "worker_image.h"
 
 /* clang-format off */
 static const struct param shading_params[] = {
@@ -122,6 +123,8 @@ static enum status shading_begin(struct work *w)
 	enum status st = image_init(&s->image, w, work_has(w, "view") ? work_text(w, "view") : NULL,
 	                            width, height, (int)work_integer(w, "samples"), color_channels,
 	                            N_COLOR_CHANNELS);
+	if (st == ST_OK)
+		work_units_are_tiles(w, &s->image.exr);
 	if (st == ST_OK)
 		st = look_init(&s->look, w, &s->image.camera);
 	if (st == ST_OK)

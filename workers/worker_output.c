@@ -13,6 +13,7 @@
 #include "json.h"
 #include "parallel.h"
 #include "path.h"
+#include "worker_image.h"
 #include "worker_private.h"
 
 static const char param_prefix[] = "param.";
@@ -72,6 +73,8 @@ char *attributes_key(const struct work *w)
 	struct text t = { 0 };
 	for (int i = 0; i < p->n_attributes; i++)
 		text_addf(&t, "%s=%s\n", p->attributes[i].name, p->attributes[i].value);
+	if (worker.units_are_output)
+		text_add(&t, "units=chunks\n"); /* they were tiles without a head once */
 	return text_take(&t);
 }
 
@@ -290,8 +293,10 @@ static enum status sync_path(const char *path, int flags, const struct report *r
 
 static void pending_drop(struct work *w, struct pending *p)
 {
-	unlink(p->temp);
-	run_drop_temp(w->private->run, p->temp);
+	if (p->temp) {
+		unlink(p->temp);
+		run_drop_temp(w->private->run, p->temp);
+	}
 	free(p->temp);
 	free(p->path);
 	*p = (struct pending){ 0 };
@@ -305,7 +310,8 @@ static const struct worker_output *find_output(const char *extension)
 	return NULL;
 }
 
-enum status work_output(struct work *w, const char *extension, work_writer *write, void *data)
+/* One more output, which has no temporary name yet. */
+static enum status pending_add(struct work *w, const char *extension, struct pending **out)
 {
 	struct work_private *p = w->private;
 	const struct worker_output *row = find_output(extension);
@@ -319,13 +325,31 @@ enum status work_output(struct work *w, const char *extension, work_writer *writ
 	p->pending = list;
 	struct pending *new = &list[p->n_pending];
 	*new = (struct pending){ .row = row, .path = output_path(w, row) };
-	new->temp = new->path ? temp_path(w, row) : NULL;
-	if (!new->temp) {
-		free(new->path);
+	if (!new->path)
 		return ST_RESOURCE;
-	}
 	p->n_pending++;
-	enum status st = run_add_temp(p->run, new->temp);
+	*out = new;
+	return ST_OK;
+}
+
+static enum status pending_name(struct work *w, struct pending *p)
+{
+	p->temp = temp_path(w, p->row);
+	return p->temp ? run_add_temp(w->private->run, p->temp) : ST_RESOURCE;
+}
+
+enum status outputs_add_part(struct work *w, const char *extension)
+{
+	struct pending *new;
+	return pending_add(w, extension, &new);
+}
+
+enum status work_output(struct work *w, const char *extension, work_writer *write, void *data)
+{
+	struct pending *new;
+	enum status st = pending_add(w, extension, &new);
+	if (st == ST_OK)
+		st = pending_name(w, new);
 	if (st == ST_OK)
 		st = write(data, new->temp, &w->report);
 	if (st == ST_OK)
@@ -342,6 +366,12 @@ static const struct pending *find_pending(const struct work_private *p,
 	return NULL;
 }
 
+const char *work_made(const struct work *w, const char *extension)
+{
+	const struct pending *p = find_pending(w->private, find_output(extension));
+	return !p ? NULL : p->temp ? p->temp : part_file(w->private->part);
+}
+
 static enum status check_complete(const struct work *w)
 {
 	for (const struct worker_output *row = worker.outputs; row->extension; row++)
@@ -352,8 +382,35 @@ static enum status check_complete(const struct work *w)
 	return ST_OK;
 }
 
-static enum status put_in_place(struct work *w, const struct pending *p)
+/* The part file lies on another disk: its bytes go where it cannot. */
+static enum status carry_over(struct work *w, struct pending *p)
 {
+	enum status st = pending_name(w, p);
+	int error = st == ST_OK ? part_copy(w->private->part, p->temp) : 0;
+	if (error)
+		st = report_error(&w->report, status_from_errno(error), "cannot write '%s': %s",
+		                  p->path, strerror(error));
+	return st == ST_OK ? sync_path(p->temp, O_RDONLY, &w->report) : st;
+}
+
+/* Rename the part file; *done: it is in place. */
+static enum status rename_part(struct work *w, struct pending *p, bool *done)
+{
+	int error = part_become(w->private->part, p->path);
+	*done = error == 0;
+	if (error == EXDEV)
+		return carry_over(w, p);
+	return error ? report_error(&w->report, status_from_errno(error), "cannot write '%s': %s",
+	                            p->path, strerror(error))
+	             : ST_OK;
+}
+
+static enum status put_in_place(struct work *w, struct pending *p)
+{
+	bool done = false;
+	enum status st = p->temp ? ST_OK : rename_part(w, p, &done);
+	if (st != ST_OK || done)
+		return st;
 	if (rename(p->temp, p->path) < 0)
 		return report_error(&w->report, status_from_errno(errno), "cannot write '%s': %s",
 		                    p->path, strerror(errno));

@@ -150,7 +150,7 @@ void inputs_finish(struct inputs *in);
 
 struct pending {
 	const struct worker_output *row;
-	char *temp, *path; /* owned */
+	char *temp, *path; /* owned; temp NULL: it is the part file, to be renamed */
 };
 
 struct work_private {
@@ -158,6 +158,8 @@ struct work_private {
 	const struct task *task;
 	const struct computation *computation;
 	struct part *part;
+	bool in_place;                     /* the units are the own output's, in order */
+	double bytes_max;                  /* of all units together; 0: not known */
 	struct work_attribute *attributes; /* owned; names of parameters and values too */
 	int n_attributes;
 	json_t *figures;         /* owned */
@@ -184,6 +186,12 @@ bool output_wanted(const struct work *w, const struct worker_output *row);
 
 /* Known before hours are spent: can the outputs have their names? Errors: ST_PARAMETER, ST_INPUT. */
 enum status outputs_check(const struct work *w);
+
+/* Is there so much room that what the units will take need not be known? */
+bool room_is_ample(const struct work *w, const char *part);
+
+/* The part file is the output with that extension. Errors: ST_INTERNAL, ST_RESOURCE. */
+enum status outputs_add_part(struct work *w, const char *extension);
 
 /* Rename what was made, or take it away. Errors: ST_INTERNAL (one is missing), ST_RESOURCE. */
 enum status outputs_commit(struct work *w);

@@ -38,20 +38,33 @@ static enum status refuse(const struct work *w, const struct place *p)
 	        ceil(p->wanted / mib), p->folder, floor(p->free / mib));
 }
 
+bool room_is_ample(const struct work *w, const char *part)
+{
+	const double twice = 2 * w->private->bytes_max;
+	struct place units = { .path = part };
+	struct place output = { .path = w->private->computation->base };
+	bool ample = twice > 0 && place_look(&units) && place_look(&output) && units.free > twice &&
+	             output.free > twice;
+	free(units.folder);
+	free(output.folder);
+	return ample;
+}
+
 enum status room_check(const struct work *w, const char *part, size_t n_left)
 {
 	const struct work_private *p = w->private;
-	struct stat s;
-	if (part_count(p->part) == 0 || stat(part, &s))
+	if (part_count(p->part) == 0)
 		return ST_OK;
-	double mean = (double)s.st_size / (double)part_count(p->part);
-	bool copied = worker.units_are_output && p->task->n_shards == 0;
+	double mean = (double)part_bytes(p->part) / (double)part_count(p->part);
+	bool kept = p->task->n_shards > 0 || !worker.units_are_output;
 	struct place units = { .path = part, .wanted = mean * (double)n_left };
 	struct place output = { .path = p->computation->base,
-		                .wanted = copied ? mean * (double)p->n_units : 0 };
+		                .wanted = kept ? 0 : mean * (double)p->n_units };
 	enum status st = ST_OK;
 	if (place_look(&units) && place_look(&output)) {
-		if (units.disk == output.disk)
+		if (units.disk == output.disk && p->in_place)
+			output.wanted = units.wanted; /* the part file becomes the output */
+		else if (units.disk == output.disk)
 			units.wanted = output.wanted += units.wanted;
 		if (output.wanted > output.free)
 			st = refuse(w, &output);

@@ -185,7 +185,7 @@ static enum status do_units(struct work *w, const char *part)
 	p->n_units = n_mine;
 	atomic_store(&p->n_done, n_mine - m.n);
 	meter_set(&p->run->meter, "computing", n_mine - m.n, n_mine);
-	size_t first = spread_first(&m);
+	size_t first = room_is_ample(w, part) ? 0 : spread_first(&m);
 	enum status st = do_missing(w, &m, 0, first);
 	if (st == ST_OK)
 		st = room_check(w, part, m.n - first);
@@ -201,7 +201,9 @@ static enum status open_part(struct work *w, const char *path)
 	char *key = attributes_key(w);
 	if (!key)
 		return ST_RESOURCE;
-	enum status st = part_open(&p->part, path, key, p->n_units, &w->report);
+	p->in_place = p->in_place && p->task->n_shards == 0;
+	enum status st = (p->in_place ? part_open_ordered : part_open)(&p->part, path, key,
+	                                                               p->n_units, &w->report);
 	free(key);
 	/* a shard without units left no file; what one should have left and did not is done here */
 	for (int i = 0; st == ST_OK && i < p->task->n_parts; i++)
@@ -303,7 +305,9 @@ static char *part_path(const struct work *w)
 	const char *base = p->computation->base, *name = path_file_name(base);
 	char end[64];
 	snprintf(end, sizeof end, "%s.part", worker.outputs[0].extension);
-	char *brief = strlen(name) + strlen(end) > NAME_MAX ? path_brief_name(name) : strdup(name);
+	/* what comes before its turn has a longer name */
+	size_t longest = NAME_MAX - strlen(".ahead");
+	char *brief = strlen(name) + strlen(end) > longest ? path_brief_name(name) : strdup(name);
 	char *part = brief ? text_print("%.*s%s%s", (int)(name - base), base, brief, end) : NULL;
 	free(brief);
 	return part;

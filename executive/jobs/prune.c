@@ -117,6 +117,8 @@ void prune_files(const struct project *p, struct queue *q)
 	folder_prune(p, "jobs", &k, keeps_id);
 	k.extension = ".part";
 	folder_prune(p, "parts", &k, keeps_id);
+	k.extension = ".part.ahead";
+	folder_prune(p, "parts", &k, keeps_id);
 	if (inputs_gather(&k))
 		folder_prune(p, "inputs", &k, keeps_input);
 	for (size_t i = 0; i < k.n_inputs; i++)

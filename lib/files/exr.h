@@ -1,5 +1,5 @@
 /* exr.h - OpenEXR images in tiles: each tile packed (compressed) by itself, in any thread, and the
- * file put together from packed tiles without touching them again. */
+ * file put together from packed tiles without touching them again, or around them. */
 #ifndef BATTEN_EXR_H
 #define BATTEN_EXR_H
 
@@ -9,7 +9,11 @@
 #include "report.h"
 #include "text.h"
 
-enum { EXR_CHANNELS_MAX = 64 };
+enum {
+	EXR_CHANNELS_MAX = 64,
+	EXR_CHUNK_HEAD =
+	        20, /* bytes of a chunk before the packed ones: where the tile lies, size */
+};
 
 struct exr_channel {
 	const char *name; /* borrowed; "R", "N.X", "K"; each name once */
@@ -38,7 +42,7 @@ size_t exr_tiles(const struct exr_image *im);
 void exr_tile_window(const struct exr_image *im, size_t i, int *x, int *y, int *w, int *h);
 
 /*
- * Pack tile i: planes[c] holds the tile's values of channel c, w x h floats without gaps; half
+ * Make tile i's chunk, as it stands in a file: planes[c] holds the tile's values of channel c, w x h floats without gaps; half
  * channels are converted to nearest, ties to even. The bytes are appended to *out. Level 2 zip, or
  * as they are where that saves less than a tenth. The bytes depend on nothing but size and values.
  * Thread: any. Errors: ST_RESOURCE.
@@ -47,13 +51,21 @@ enum status exr_pack(const struct exr_image *im, size_t i, const float *const *p
                      struct text *out);
 
 /*
- * The inverse: planes[c] receives tile i's w x h values of channel c. What stands behind the packed
- * tile in its n bytes is left alone. Thread: any. Errors: ST_INPUT (no such tile), ST_RESOURCE.
+ * The inverse: planes[c] receives tile i's w x h values of channel c. What stands behind the chunk
+ * in its n bytes is left alone. Thread: any. Errors: ST_INPUT (no such tile), ST_RESOURCE.
  */
 enum status exr_unpack(const struct exr_image *im, size_t i, const char *bytes, size_t n,
                        float *const *planes);
 
-/* Give tile i's packed bytes, valid until the next call. */
+/*
+ * What a file of that image begins with where its chunks lie at `places` already: header with the
+ * attribute `first` (n bytes as they stand in a file) before all others, table of places.
+ * Errors: ST_RESOURCE.
+ */
+enum status exr_front(const struct exr_image *im, const void *first, size_t n,
+                      const uint64_t *places, struct text *out);
+
+/* Give tile i's chunk, and whatever stands behind it, valid until the next call. */
 typedef enum status exr_source(void *data, size_t i, const char **bytes, size_t *n);
 
 /*

@@ -66,6 +66,10 @@ enum status exr_unpack(const struct exr_image *im, size_t i, const char *bytes, 
 			order[k] = order[k - 1];
 		order[k] = c;
 	}
+	if (n < EXR_CHUNK_HEAD)
+		return ST_INPUT;
+	bytes += EXR_CHUNK_HEAD;
+	n -= EXR_CHUNK_HEAD;
 	unsigned char *raw = malloc(2 * size);
 	struct libdeflate_decompressor *zip = libdeflate_alloc_decompressor();
 	size_t used, made;

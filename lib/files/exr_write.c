@@ -10,7 +10,7 @@
 #include <libdeflate.h>
 #include <openexr.h>
 
-enum { ZIP_LEVEL = 2, SLICE = 4096 };
+enum { ZIP_LEVEL = 2, SLICE = 4096, MAGIC_SIZE = 8 };
 
 /* What a sample must shrink to for a tile to be compressed at all. */
 static const double worth = 0.9;
@@ -46,8 +46,10 @@ void exr_tile_window(const struct exr_image *im, size_t i, int *x, int *y, int *
 
 /* Where a context's bytes go, and what went wrong. */
 struct sink {
-	int fd;    /* -1: nowhere */
-	int error; /* errno of the first failed write */
+	int fd;          /* -1: nowhere */
+	struct text *to; /* borrowed; takes what is written one after the other; NULL: nothing */
+	bool whole;      /* attributes, too */
+	int error;       /* errno of the first failed write */
 	char message[256];
 };
 
@@ -67,6 +69,8 @@ static int64_t sink_write(exr_const_context_t f, void *data, const void *bytes, 
 	struct sink *sink = data;
 	uint64_t done = 0;
 	(void)f, (void)error;
+	if (sink->to && offset == sink->to->n)
+		text_add_bytes(sink->to, bytes, n);
 	while (sink->fd >= 0 && done < n) {
 		ssize_t k = pwrite(sink->fd, (const char *)bytes + done, n - done, offset + done);
 		if (k < 0 && errno == EINTR)
@@ -109,7 +113,7 @@ static exr_result_t begin(exr_context_t *out, const char *name, struct sink *sin
 		e = exr_add_channel(f, part, im->channels[c].name,
 		                    im->channels[c].half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT,
 		                    EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
-	for (int i = 0; i < im->n_attributes && sink->fd >= 0 && !e; i++)
+	for (int i = 0; i < im->n_attributes && sink->whole && !e; i++)
 		e = exr_attr_set_string(f, part, im->attributes[i].name, im->attributes[i].value);
 	if (!e)
 		e = exr_write_header(f);
@@ -201,6 +205,12 @@ static const float *plane_of(const struct exr_image *im, const float *const *pla
 	return NULL;
 }
 
+static void add_u32(struct text *out, uint64_t x)
+{
+	const unsigned char bytes[4] = { x, x >> 8, x >> 16, x >> 24 };
+	text_add_bytes(out, bytes, sizeof bytes);
+}
+
 /*
  * A tile's chunk does not depend on where it lies, so it is packed as the only tile of an image of
  * its own size: a context costs microseconds, and threads share nothing.
@@ -211,8 +221,13 @@ enum status exr_pack(const struct exr_image *im, size_t i, const float *const *p
 	int x, y, w, h;
 	exr_tile_window(im, i, &x, &y, &w, &h);
 
+	const size_t head = out->n + EXR_CHUNK_HEAD - 4, across = (size_t)exr_tiles_across(im);
 	struct sink nowhere = { .fd = -1 };
 	exr_context_t f;
+	add_u32(out, i % across);
+	add_u32(out, i / across);
+	for (int k = 0; k < 3; k++) /* level in x and y, and the size, which is not known yet */
+		add_u32(out, 0);
 	if (begin(&f, "tile", &nowhere, im, w, h))
 		return ST_RESOURCE;
 	exr_encode_pipeline_t pipe = EXR_ENCODE_PIPELINE_INITIALIZER;
@@ -241,7 +256,35 @@ enum status exr_pack(const struct exr_image *im, size_t i, const float *const *p
 	libdeflate_free_compressor(chunk.zip);
 	exr_encoding_destroy(f, &pipe);
 	exr_finish(&f);
-	return e ? ST_RESOURCE : ST_OK;
+	if (e || out->failed)
+		return ST_RESOURCE;
+	const size_t size = out->n - head - 4;
+	for (int k = 0; k < 4; k++)
+		out->s[head + k] = (char)(size >> 8 * k);
+	return ST_OK;
+}
+
+enum status exr_front(const struct exr_image *im, const void *first, size_t n,
+                      const uint64_t *places, struct text *out)
+{
+	struct text header = { 0 };
+	struct sink sink = { .fd = -1, .to = &header, .whole = true };
+	exr_context_t f;
+	exr_result_t e = begin(&f, "image", &sink, im, im->width, im->height);
+	sink.to = NULL;
+	if (!e)
+		exr_finish(&f);
+	if (!e && !header.failed) {
+		text_add_bytes(out, header.s, MAGIC_SIZE);
+		text_add_bytes(out, first, n);
+		text_add_bytes(out, header.s + MAGIC_SIZE, header.n - MAGIC_SIZE);
+		for (size_t i = 0; i < exr_tiles(im); i++) {
+			add_u32(out, places[i]);
+			add_u32(out, places[i] >> 32);
+		}
+	}
+	text_finish(&header);
+	return e || out->failed || !out->n ? ST_RESOURCE : ST_OK;
 }
 
 static enum status write_failed(const char *path, const struct sink *sink, exr_result_t e,
@@ -269,8 +312,16 @@ static enum status write_tiles(exr_context_t f, const char *path, const struct e
 		enum status st = source(data, i, &bytes, &size);
 		if (st)
 			return st;
+		const unsigned char *head = (const unsigned char *)bytes + EXR_CHUNK_HEAD - 4;
+		const size_t packed = size < EXR_CHUNK_HEAD
+		                              ? SIZE_MAX
+		                              : (size_t)head[3] << 24 | (size_t)head[2] << 16 |
+		                                        (size_t)head[1] << 8 | head[0];
+		if (packed > size - EXR_CHUNK_HEAD)
+			return report_error(r, ST_INTERNAL,
+			                    "cannot write '%s': tile %zu is no chunk", path, i);
 		exr_result_t e = exr_write_tile_chunk(f, 0, (int)(i % across), (int)(i / across), 0,
-		                                      0, bytes, size);
+		                                      0, bytes + EXR_CHUNK_HEAD, packed);
 		if (e)
 			return write_failed(path, sink, e, r);
 	}
@@ -280,7 +331,8 @@ static enum status write_tiles(exr_context_t f, const char *path, const struct e
 enum status exr_write(const char *path, const struct exr_image *im, exr_source *source, void *data,
                       const struct report *r)
 {
-	struct sink sink = { .fd = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) };
+	struct sink sink = { .fd = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666),
+		             .whole = true };
 	if (sink.fd < 0)
 		return report_error(r, status_from_errno(errno), "cannot write '%s': %s", path,
 		                    strerror(errno));
