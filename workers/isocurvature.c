@@ -5,6 +5,7 @@
 #include "curvature.h"
 #include "level_curves.h"
 #include "level_work.h"
+#include "umbilic_points.h"
 #include "worker.h"
 
 enum { LEVELS_MAX = 1000 };
@@ -124,8 +125,11 @@ static enum status isocurvature_finish(struct work *w)
 		                  .values = s->values,
 		                  .level = &s->level,
 		                  .n = s->n };
+	json_t *figures = st == ST_OK ? level_curves_figures(&c) : NULL;
+	if (figures && (s->quantity == QUANTITY_KMAX || s->quantity == QUANTITY_KMIN))
+		umbilic_points_set(&s->level, figures);
 	if (st == ST_OK)
-		st = work_figures(w, level_curves_figures(&c));
+		st = work_figures(w, figures);
 	if (st == ST_OK)
 		st = work_output(w, ".isocurvature", level_curves_write, &c);
 	if (st == ST_OK && work_flag(w, "svg"))
@@ -143,9 +147,10 @@ static const struct worker_output isocurvature_outputs[] = {
 const struct worker worker = {
 	.name = "isocurvature",
 	.title = "lines of constant curvature",
-	.version = 2,
+	.version = 3,
 	.help = "Traces all curves on a surface along which a curvature keeps its value, as splines in "
-	        "u,v and in space with their checked error; Gaussian curvature 0: the parabolic lines.",
+	        "u,v and in space with their checked error; Gaussian curvature 0: the parabolic lines. With kmax "
+	        "and kmin also the umbilics, the points where both are one.",
 	.scene = true,
 	.params = isocurvature_params,
 	.outputs = isocurvature_outputs,

@@ -8,6 +8,7 @@
 #include "json.h"
 #include "level_wires.h"
 #include "picture.h"
+#include "umbilic_points.h"
 
 enum { LABEL_SIZE = 32 };
 
@@ -264,6 +265,8 @@ static enum status curves_fill(const struct level_curves *c, struct model *m)
 		st = surface_add(c->level, w, s, m);
 	for (int i = 0; st == ST_OK && i < c->n; i++)
 		st = value_fill(c, i, m);
+	if (st == ST_OK)
+		st = umbilic_points_add(c->level, m);
 	return st;
 }
 

@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "curvature.h"
 #include "json.h"
+#include "refine.h"
 
 static char *isocurvature;
 
@@ -65,6 +67,49 @@ static void test_levels(void **state)
 	model_finish(&m);
 }
 
+/* An ellipsoid has four umbilics, told of whatever the value; curves of theirs end in them, two each. */
+static void test_umbilics(void **state)
+{
+	(void)state;
+	const double stretch[3][4] = { { 3, 0, 0, 0 }, { 0, 2, 0, 0 }, { 0, 0, 1, 0 } };
+	struct surface s = body_sphere(vec3(0, 0, 0), 1);
+	struct surface_shape pole;
+	surface_transform(&s, stretch);
+	surface_shape(&s, 0.1, 0.1, &pole);
+	const char *value = pole.value[QUANTITY_MEAN] < 0 ? "-0.375" : "0.375";
+	body_write("egg.base", NULL, s);
+	for (int own = 0; own < 2; own++) {
+		struct model m;
+		ran(0, run_hand(isocurvature, "egg.base", "--quantity", "kmax", "--level",
+		                own ? value : "7", NULL));
+		assert_int_equal(model_read(&m, "egg.isocurvature", NULL, NULL), ST_OK);
+		assert_true(figure(&m, "umbilics") == 4);
+		assert_true(figure(&m, "umbilic_regions") == 0 &&
+		            figure(&m, "umbilic_undecided") == 0);
+		assert_true(figure(&m, "undecided") == (own ? 4 : 0));
+		json_t *figures = figures_of(&m),
+		       *points = json_object_get(figures, "umbilic_points");
+		assert_int_equal(json_array_size(points), 4);
+		for (size_t i = 0; i < 4; i++) {
+			const json_t *row = json_array_get(points, i);
+			near(fabs(json_number(row, "curvature", 0)), 0.375, 1e-9);
+			near(json_number(row, "index", 0), 0.5, 0);
+		}
+		json_decref(figures);
+		const struct entity *last = &m.entities[m.n - 1];
+		assert_string_equal(entity_get_attribute(last, "umbilics"), "points");
+		assert_string_equal(entity_get_attribute(last, "halves"), "1 1 1 1");
+		assert_int_equal(last->points.n, 4);
+		if (own) {
+			const struct entity *boxes = &m.entities[m.n - 2];
+			assert_string_equal(entity_get_attribute(boxes, "kinds"),
+			                    "umbilic umbilic umbilic umbilic");
+			assert_string_equal(entity_get_attribute(boxes, "ends"), "2 2 2 2");
+		}
+		model_finish(&m);
+	}
+}
+
 static void test_refused(void **state)
 {
 	(void)state;
@@ -79,6 +124,7 @@ int main(int argc, char **argv)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_circles),
 		cmocka_unit_test(test_levels),
+		cmocka_unit_test(test_umbilics),
 		cmocka_unit_test(test_refused),
 	};
 	if (argc != 2)

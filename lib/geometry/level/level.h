@@ -110,10 +110,12 @@ struct level_branch {
  * What stays undecided, by what is certain round it. Points and crossings are small: a part in 10,000
  * of the surface, or below the tolerance; singular ones ten times that. The branches that reach a crossing end in the same point
  * there, the middle of its box, if they can within the tolerance; else at its border.
+ * One about an umbilic, no larger than a hundredth of the surface, is no crossing but an umbilic.
  */
 enum level_mark {
 	LEVEL_POINT,    /* no curve leaves it: a touch, or nothing */
 	LEVEL_CROSSING, /* curves end in it */
+	LEVEL_UMBILIC, /* small, and kmax = kmin at `at`, and there alone: curves may have a corner in it */
 	LEVEL_SINGULAR, /* small, and the surface has no normal at `at`: curves that lead there end in it */
 	LEVEL_REGION, /* larger: a plateau, a touch along a line, or places too near each other */
 	LEVEL_GRAZE, /* whether a curve touches the border here, or a line where the derivatives of f
@@ -123,19 +125,42 @@ enum level_mark {
 
 struct level_box {
 	double lo[2], hi[2]; /* in u, v; over a seam hi is beyond the upper end */
-	double at[2]; /* where its branches end if they can: the middle, or the singular point */
-	bool flat;    /* f is zero in it up to rounding */
+	double at
+	        [2]; /* where its branches end if they can: the middle, or the singular point, or the umbilic */
+	bool flat; /* f is zero in it up to rounding */
 	enum level_mark kind;
 	int ends; /* of branches, in it: how many curves leave it */
 };
 
 extern const char *const level_mark_names[N_LEVEL_MARKS]; /* "crossing" */
 
+/* Where kmax = kmin. */
+enum level_umbilic_kind {
+	LEVEL_UMBILIC_POINT,  /* one, in its box and its neighbourhood */
+	LEVEL_UMBILIC_REGION, /* all of the box as far as rounding lets tell: a sphere, a plane */
+	LEVEL_UMBILIC_UNDECIDED, /* one, several, or none */
+	N_LEVEL_UMBILIC_KINDS
+};
+
+struct level_umbilic {
+	enum level_umbilic_kind kind;
+	double lo[2], hi[2], at[2]; /* u, v */
+	double curvature;           /* both principal ones, at `at` */
+	/* principal directions go round by so many halves of a turn about it: 1 lemon, -1 star; 0: not known (in a pole) */
+	int halves;
+};
+
+extern const char *const level_umbilic_names[N_LEVEL_UMBILIC_KINDS]; /* "point" */
+
+/* Umbilics are looked for with kmax and kmin alone: on the whole surface for a level that level_create made, for
+ * others only in patches where something stayed undecided. */
 struct level_result {
 	struct level_branch *branches; /* owned */
 	size_t n_branches, n_closed;
 	struct level_box *undecided; /* owned; boxes that touch are one */
 	size_t n_undecided;
+	struct level_umbilic *umbilics; /* owned; points first */
+	size_t n_umbilics;
 	double length, max_error, max_error_uv;
 };
 

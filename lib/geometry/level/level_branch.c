@@ -148,8 +148,7 @@ static void spans_add_mark(const struct joint *j, size_t end, bool into, struct 
 	int mark = j->links[end].mark;
 	struct joint_end a;
 	double uv[2], p[3];
-	if (mark == 0 || (j->marks[mark - 1].kind != LEVEL_CROSSING &&
-	                  j->marks[mark - 1].kind != LEVEL_SINGULAR))
+	if (mark == 0 || !level_mark_joins(j->marks[mark - 1].kind))
 		return;
 	joint_end_get(j, end, &a);
 	memcpy(uv, j->marks[mark - 1].at, sizeof uv);

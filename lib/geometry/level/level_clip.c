@@ -365,6 +365,23 @@ static enum status boxes_clip(const struct clipper *c, struct level_result *x)
 	return ST_OK;
 }
 
+/* Umbilics likewise. */
+static void umbilics_clip(const struct clipper *c, struct level_result *x)
+{
+	size_t n = 0;
+	for (size_t i = 0; i < x->n_umbilics; i++) {
+		const struct level_umbilic *u = &x->umbilics[i];
+		struct level_box b = { .flat = false };
+		for (int d = 0; d < 2; d++) {
+			b.lo[d] = u->lo[d];
+			b.hi[d] = u->hi[d];
+		}
+		if (!box_outside(c, &b))
+			x->umbilics[n++] = x->umbilics[i];
+	}
+	x->n_umbilics = n;
+}
+
 enum status level_clip(const struct level_faces *f, int i, double tolerance, struct level_result *x)
 {
 	struct clipper c = { .test = f->tests[i],
@@ -393,5 +410,6 @@ enum status level_clip(const struct level_faces *f, int i, double tolerance, str
 		curve_finish(&x->branches[b].space);
 	}
 	level_result_replace(x, &kept);
+	umbilics_clip(&c, x);
 	return boxes_clip(&c, x);
 }

@@ -14,7 +14,7 @@
  * h have another p^2 to lose: there a surface has curvatures only if they do have it.
  * Source: do Carmo, Differential Geometry of Curves and Surfaces (1976), section 3.3.
  */
-#include "level_term.h"
+#include "level_second.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,8 +26,6 @@
 
 /* No more forms, none of higher degree than f, are needed. */
 enum { FORMS_MAX = 80 };
-
-enum { DU, DV, DUU, DUV, DVV, N_DERIVATIVES };
 
 static int most(int a, int b)
 {
@@ -70,104 +68,6 @@ size_t level_curvature_room(const struct level *l)
 	return FORMS_MAX * form_count(m, n);
 }
 
-/* What the forms of a patch are made of, in the frame, from its first point. */
-struct parts {
-	struct form x[4], d[N_DERIVATIVES][3], n[3];
-};
-
-/* The derivative of a form, both scaled, by the parameter that runs over [0, 1] on the surface. */
-static struct form derivative(struct tracer *t, struct form x, int d)
-{
-	const struct bezier_net *net = &t->level->surface->net;
-	const double *binomial = t->level->surface->binomial, *b = net->breaks[d];
-	const int degree = d == 0 ? x.m : x.n, i0 = t->place[d];
-	const double by = degree * (b[net->spans[d]] - b[0]) / (b[i0 + 1] - b[i0]);
-	struct form out = form_new(t, x.m - (d == 0), x.n - (d == 1));
-	struct form plain = form_new(t, x.m, x.n);
-	memcpy(plain.c, x.c, sizeof *x.c * form_count(x.m, x.n));
-	form_scale(plain.c, x.m, x.n, binomial, true);
-	const size_t step = d == 0 ? (size_t)x.n + 1 : 1;
-	for (int i = 0; i <= out.m; i++)
-		for (int j = 0; j <= out.n; j++) {
-			const double *c = plain.c + (size_t)i * (x.n + 1) + j;
-			out.c[(size_t)i * (out.n + 1) + j] = by * (c[step] - c[0]);
-		}
-	out.b.size = form_most(out.c, form_count(out.m, out.n));
-	out.b.error = 2 * by * x.b.error + 16 * UNIT_ROUNDOFF * (out.b.size + by * x.b.size);
-	form_scale(out.c, out.m, out.n, binomial, false);
-	return out;
-}
-
-/* w Xd - wd X; Xd where w is 1. */
-static void quotient(struct tracer *t, const struct form x[4], const struct form d[4],
-                     struct form out[3])
-{
-	for (int k = 0; k < 3; k++) {
-		if (!t->level->surface->net.rational) {
-			out[k] = d[k];
-			continue;
-		}
-		out[k] = form_new(t, d[k].m + x[3].m, d[k].n + x[3].n);
-		form_add_product(&out[k], d[k], x[3], 1);
-		form_add_product(&out[k], d[3], x[k], -1);
-		form_tighten(t, &out[k]);
-	}
-}
-
-static void parts_make(struct tracer *t, struct parts *p)
-{
-	const struct level_surface *s = t->level->surface;
-	struct form d[N_DERIVATIVES][4];
-	double from[3];
-	for (int k = 0; k < 3; k++)
-		from[k] = vec3_dot(vec3_of(s->frame[k]), vec3_of(t->points)) / t->points[3];
-	form_points(t, from, p->x);
-	for (int k = 0; k < 4; k++) {
-		d[DU][k] = derivative(t, p->x[k], 0);
-		d[DV][k] = derivative(t, p->x[k], 1);
-		d[DUU][k] = derivative(t, d[DU][k], 0);
-		d[DUV][k] = derivative(t, d[DU][k], 1);
-		d[DVV][k] = derivative(t, d[DV][k], 1);
-	}
-	for (int i = 0; i < N_DERIVATIVES; i++)
-		quotient(t, p->x, d[i], p->d[i]);
-	for (int k = 0; k < 3; k++)
-		p->n[k] = form_normal(t, k);
-}
-
-static struct form dot(struct tracer *t, const struct form a[3], const struct form b[3])
-{
-	struct form out = form_new(t, a[0].m + b[0].m, a[0].n + b[0].n);
-	for (int k = 0; k < 3 && !tracer_ends(t); k++)
-		form_add_product(&out, a[k], b[k], 1);
-	form_tighten(t, &out);
-	return out;
-}
-
-static struct form product(struct tracer *t, struct form a, struct form b)
-{
-	struct form out = form_new(t, a.m + b.m, a.n + b.n);
-	if (!tracer_ends(t))
-		form_add_product(&out, a, b, 1);
-	form_tighten(t, &out);
-	return out;
-}
-
-/* The form is zero on a side of the patch, up to rounding. */
-static bool side_zero(const struct tracer *t, const struct form *f, int d, bool upper)
-{
-	const double *binomial = t->level->surface->binomial;
-	const double *bm = binomial_row(binomial, f->m), *bn = binomial_row(binomial, f->n);
-	const int count = d == 0 ? f->n : f->m, at = !upper ? 0 : d == 0 ? f->m : f->n;
-	for (int k = 0; k <= count; k++) {
-		const int i = d == 0 ? at : k, j = d == 0 ? k : at;
-		if (fabs(f->c[(size_t)i * (f->n + 1) + j]) / (bm[i] * bn[j]) >
-		    larger(ZERO_SHARE * f->b.size, f->b.error))
-			return false;
-	}
-	return true;
-}
-
 /* Take out the square of the factors that the normal has lost; false where it is not there. */
 static bool factors_out(struct tracer *t, struct form *f)
 {
@@ -175,7 +75,7 @@ static bool factors_out(struct tracer *t, struct form *f)
 	for (int side = 0; side < 4; side++)
 		for (int k = 0; k < 2 * factors[side]; k++) {
 			const int d = side / 2, upper = side % 2;
-			if (!side_zero(t, f, d, upper))
+			if (!second_side_zero(t, f, d, upper))
 				return false;
 			form_divide(f->c, f->m, f->n, d, upper);
 			f->b.error *= (d == 0 ? f->m : f->n) + 1;
@@ -184,10 +84,10 @@ static bool factors_out(struct tracer *t, struct form *f)
 	return true;
 }
 
-static bool gauss_form(struct tracer *t, const struct parts *p, struct form *k)
+static bool gauss_form(struct tracer *t, const struct second_parts *p, struct form *k)
 {
-	const struct form l = dot(t, p->d[DUU], p->n), m = dot(t, p->d[DUV], p->n),
-	                  n = dot(t, p->d[DVV], p->n);
+	const struct form l = second_dot(t, p->d[DUU], p->n), m = second_dot(t, p->d[DUV], p->n),
+	                  n = second_dot(t, p->d[DVV], p->n);
 	*k = form_new(t, 2 * m.m, 2 * m.n);
 	form_add_product(k, l, n, 1);
 	form_add_square(k, m, -1);
@@ -195,16 +95,17 @@ static bool gauss_form(struct tracer *t, const struct parts *p, struct form *k)
 	if (!factors_out(t, k))
 		return false;
 	if (t->level->surface->net.rational)
-		*k = product(t, *k, product(t, p->x[3], p->x[3]));
+		*k = second_product(t, *k, second_product(t, p->x[3], p->x[3]));
 	return true;
 }
 
-static bool mean_form(struct tracer *t, const struct parts *p, struct form *h)
+static bool mean_form(struct tracer *t, const struct second_parts *p, struct form *h)
 {
-	const struct form l = dot(t, p->d[DUU], p->n), m = dot(t, p->d[DUV], p->n),
-	                  n = dot(t, p->d[DVV], p->n);
-	const struct form e = dot(t, p->d[DU], p->d[DU]), f = dot(t, p->d[DU], p->d[DV]),
-	                  g = dot(t, p->d[DV], p->d[DV]);
+	const struct form l = second_dot(t, p->d[DUU], p->n), m = second_dot(t, p->d[DUV], p->n),
+	                  n = second_dot(t, p->d[DVV], p->n);
+	const struct form e = second_dot(t, p->d[DU], p->d[DU]),
+	                  f = second_dot(t, p->d[DU], p->d[DV]),
+	                  g = second_dot(t, p->d[DV], p->d[DV]);
 	*h = form_new(t, f.m + m.m, f.n + m.n);
 	form_add_product(h, e, n, 1);
 	form_add_product(h, f, m, -2);
@@ -217,19 +118,20 @@ static bool mean_form(struct tracer *t, const struct parts *p, struct form *h)
 static void beside_mean(struct tracer *t, struct form *out, struct form square, struct form root,
                         struct form h, double weight)
 {
-	form_add(t, out, product(t, square, root), 2 * t->level->value * weight);
+	form_add(t, out, second_product(t, square, root), 2 * t->level->value * weight);
 	form_add(t, out, h, -weight);
 }
 
-static bool normal_make(struct tracer *t, const struct parts *p, struct form root, struct form *f)
+static bool normal_make(struct tracer *t, const struct second_parts *p, struct form root,
+                        struct form *f)
 {
 	const bool u = t->level->surface->quantity == QUANTITY_NORMAL_U;
 	const struct form *along = p->d[u ? DU : DV];
-	struct form second = dot(t, p->d[u ? DUU : DVV], p->n);
+	struct form second = second_dot(t, p->d[u ? DUU : DVV], p->n);
 	if (t->level->surface->net.rational)
-		second = product(t, second, product(t, p->x[3], p->x[3]));
+		second = second_product(t, second, second_product(t, p->x[3], p->x[3]));
 	form_add(t, f, second, 1);
-	form_add(t, f, product(t, dot(t, along, along), root), -t->level->value);
+	form_add(t, f, second_product(t, second_dot(t, along, along), root), -t->level->value);
 	return true;
 }
 
@@ -238,10 +140,10 @@ static bool field_make(struct tracer *t, struct form *f, struct form *side)
 	const struct level *l = t->level;
 	const enum quantity quantity = l->surface->quantity;
 	const double c = l->value;
-	struct parts p;
+	struct second_parts p;
 	struct form k, h, root;
-	parts_make(t, &p);
-	const struct form square = dot(t, p.n, p.n);
+	second_parts_make(t, &p);
+	const struct form square = second_dot(t, p.n, p.n);
 	if (quantity == QUANTITY_GAUSSIAN) {
 		if (!gauss_form(t, &p, &k))
 			return false;
@@ -261,9 +163,9 @@ static bool field_make(struct tracer *t, struct form *f, struct form *side)
 	}
 	if (!gauss_form(t, &p, &k))
 		return false;
-	form_add(t, f, product(t, square, square), c * c);
+	form_add(t, f, second_product(t, square, square), c * c);
 	form_add(t, f, k, 1);
-	form_add(t, f, product(t, h, root), -c);
+	form_add(t, f, second_product(t, h, root), -c);
 	beside_mean(t, side, square, root, h, quantity == QUANTITY_KMAX ? 1 : -1);
 	return true;
 }
@@ -306,6 +208,20 @@ static enum status patch_surface(const struct level_surface *s, int patch, struc
 		for (int i = 0; i < 2 * net->order[d]; i++)
 			out->knots[d][i] = i >= net->order[d];
 	return surface_check(out, "patch", NULL);
+}
+
+enum status level_mean_at(const struct level_surface *s, int patch, const double uv[2],
+                          double *mean)
+{
+	struct surface one = { .n = { 0, 0 } };
+	struct surface_shape x;
+	const enum status st = patch_surface(s, patch, &one);
+	if (st == ST_OK) {
+		surface_shape(&one, uv[0], uv[1], &x);
+		*mean = x.value[QUANTITY_MEAN];
+	}
+	surface_finish(&one);
+	return st;
 }
 
 static bool near(double a, double b, double scale)

@@ -157,7 +157,7 @@ static void end_make(const struct joiner *j, const struct level_result *x, size_
 			out->own = i;
 	out->inside = out->own < 0;
 	const struct level_box *mark = b->mark[e] >= 0 ? &x->undecided[b->mark[e]] : NULL;
-	if (mark && (mark->kind == LEVEL_CROSSING || mark->kind == LEVEL_SINGULAR)) {
+	if (mark && level_mark_joins(mark->kind)) {
 		out->crossing = mark->ends > 1;
 		out->at = surface_point(surface_of(j, out->face), mark->at[0], mark->at[1]);
 	}

@@ -36,14 +36,16 @@ bool level_header_read(size_t patches, const char **at, const char *end, int las
 	*at += sizeof *h;
 	if (memcmp(h->magic, PATCH_MAGIC, sizeof h->magic) != 0 || h->patch <= last ||
 	    (size_t)h->patch >= patches || h->n_strands < 0 || h->n_pieces < 0 ||
-	    h->n_undecided < 0)
+	    h->n_undecided < 0 || h->n_umbilics < 0)
 		return false;
 	size_t left = (size_t)(end - *at);
 	return (size_t)h->n_strands <= left / sizeof(struct strand) &&
 	       (size_t)h->n_pieces <= left / sizeof(struct piece) &&
 	       (size_t)h->n_undecided <= left / sizeof(struct undecided) &&
+	       (size_t)h->n_umbilics <= left / sizeof(struct umbilic) &&
 	       h->n_strands * sizeof(struct strand) + h->n_pieces * sizeof(struct piece) +
-	                       h->n_undecided * sizeof(struct undecided) <=
+	                       h->n_undecided * sizeof(struct undecided) +
+	                       h->n_umbilics * sizeof(struct umbilic) <=
 	               left;
 }
 
@@ -66,6 +68,15 @@ static bool undecided_valid(const struct undecided *u)
 		    u->index[d] >= 1 << u->level[d])
 			return false;
 	return true;
+}
+
+static bool umbilic_valid(const struct umbilic *x)
+{
+	for (int d = 0; d < 2; d++)
+		if (!(x->lo[d] >= 0 && x->lo[d] <= x->hi[d] && x->hi[d] <= 1 && x->at[d] >= 0 &&
+		      x->at[d] <= 1))
+			return false;
+	return x->kind >= 0 && x->kind < N_UMBILIC_KINDS;
 }
 
 static bool box_add(struct joint *j, int patch, const struct undecided *u)
@@ -128,6 +139,18 @@ static enum status blocks_read(struct joint *j, const char *const *blocks, const
 				if (fill && !box_add(j, h.patch, &u))
 					return ST_RESOURCE;
 			}
+			for (int k = 0; k < h.n_umbilics; k++, at += sizeof(struct umbilic)) {
+				struct patch_umbilic u = { .patch = h.patch };
+				memcpy(&u.x, at, sizeof u.x);
+				if (!umbilic_valid(&u.x))
+					return ST_INTERNAL;
+				struct patch_umbilic *to =
+				        fill ? list_next(&j->umbilics, sizeof *to) : NULL;
+				if (fill && !to)
+					return ST_RESOURCE;
+				if (to)
+					*to = u;
+			}
 		}
 	}
 	return ST_OK;
@@ -155,6 +178,7 @@ static void joint_finish(struct joint *j)
 	free(j->pieces);
 	free(j->links);
 	free(j->boxes.p);
+	free(j->umbilics.p);
 }
 
 /*
@@ -245,6 +269,8 @@ enum status level_join(const struct level *l, const char *const *blocks, const s
 	if (st == ST_OK)
 		st = level_link(&j);
 	if (st == ST_OK)
+		st = level_umbilics_join(&j, out);
+	if (st == ST_OK)
 		st = level_regions(&j, out);
 	if (st == ST_OK)
 		st = branches_make(&j, out);
@@ -269,5 +295,6 @@ void level_result_finish(struct level_result *x)
 	}
 	free(x->branches);
 	free(x->undecided);
+	free(x->umbilics);
 	*x = (struct level_result){ 0 };
 }

@@ -98,7 +98,8 @@ enum status level_look(const char *block, size_t n, level_take *take, void *data
 		st = take_patch(&h, at, &head, take, data);
 		at += (size_t)h.n_strands * sizeof(struct strand) +
 		      (size_t)h.n_pieces * sizeof(struct piece) +
-		      (size_t)h.n_undecided * sizeof(struct undecided);
+		      (size_t)h.n_undecided * sizeof(struct undecided) +
+		      (size_t)h.n_umbilics * sizeof(struct umbilic);
 	}
 	return st;
 }

@@ -230,7 +230,7 @@ static void arc_write(const struct tracer *t, int from, struct text *out)
 static enum status patch_write(struct tracer *t, struct text *out)
 {
 	const size_t n = t->arcs.n;
-	if (n == 0 && t->undecided.n == 0)
+	if (n == 0 && t->undecided.n == 0 && t->umbilics.n == 0)
 		return ST_OK;
 	struct patch_strands made = { .n = 0 };
 	struct patch_links k;
@@ -249,12 +249,14 @@ static enum status patch_write(struct tracer *t, struct text *out)
 		                  .patch = t->patch,
 		                  .n_strands = made.n,
 		                  .n_pieces = made.n_pieces,
-		                  .n_undecided = (int)t->undecided.n };
+		                  .n_undecided = (int)t->undecided.n,
+		                  .n_umbilics = (int)t->umbilics.n };
 	text_add_bytes(out, &h, sizeof h);
 	text_add_bytes(out, made.strand, made.n * sizeof *made.strand);
 	for (int i = 0; i < made.n_arcs; i++)
 		arc_write(t, made.order[i], out);
 	text_add_bytes(out, t->undecided.p, t->undecided.n * sizeof(struct undecided));
+	text_add_bytes(out, t->umbilics.p, t->umbilics.n * sizeof(struct umbilic));
 	level_room_free(t, room);
 	return out->failed ? ST_RESOURCE : ST_OK;
 }
@@ -327,6 +329,8 @@ enum status level_patch(const struct level *l, size_t patch, const struct level_
 	double *c = level_room(&t, t.n_field + t.n_side);
 	if (!t.failed && level_field_make(&t, c))
 		level_search(&t, c);
+	if (!t.failed && l->side && kind == LEVEL_CURVATURE && (l->owner || t.undecided.n > 0))
+		level_umbilics_find(&t);
 	if (t.stopped)
 		st = ST_CANCELLED;
 	else if (!t.failed)
@@ -340,5 +344,6 @@ enum status level_patch(const struct level *l, size_t patch, const struct level_
 	list_finish(&t.pieces);
 	list_finish(&t.ends);
 	list_finish(&t.undecided);
+	list_finish(&t.umbilics);
 	return st;
 }

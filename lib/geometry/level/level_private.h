@@ -235,6 +235,14 @@ struct undecided {
 	int level[2], index[2], flat, graze;
 };
 
+/* level_umbilic.c: on a patch. UMBILIC_FLAT: a, b, c there are zero up to rounding. */
+enum umbilic_kind { UMBILIC_ONE, UMBILIC_POLE, UMBILIC_FLAT, UMBILIC_UNSURE, N_UMBILIC_KINDS };
+struct umbilic {
+	double lo[2], hi[2], at[2];
+	int kind,
+	        turn; /* turn: how principal directions turn about it, 1 with, -1 against; 0 not known */
+};
+
 /* Work on one patch. */
 struct tracer {
 	const struct level *level;
@@ -247,7 +255,7 @@ struct tracer {
 	struct bound bound;     /* of f; its size that of the terms that f is a sum of */
 	double side_error;
 	double most; /* largest coefficient of f */
-	struct list arcs, pieces, ends, undecided;
+	struct list arcs, pieces, ends, undecided, umbilics;
 	double *scratch[N_SCRATCH]; /* cells on the way down, one array a depth */
 	double *product;            /* room for scaled factors of a product */
 	size_t n_product;           /* used of it */
@@ -304,6 +312,13 @@ size_t level_kind_room(const struct level *l);
 void level_curvature_degree(struct level *l);
 bool level_curvature_make(struct tracer *t, double *out);
 size_t level_curvature_room(const struct level *l);
+
+/* level_umbilic.c */
+void level_umbilics_find(struct tracer *t);
+
+/* level_curvature.c: the mean curvature, in a place of a patch. Errors: ST_RESOURCE. */
+enum status level_mean_at(const struct level_surface *s, int patch, const double uv[2],
+                          double *mean);
 
 /* Gaussian and mean curvature agree on both sides of the edge between two patches, at n places on it.
  * Errors: ST_RESOURCE. */
@@ -436,12 +451,12 @@ struct strand {
 	struct strand_end end[2];
 };
 
-/* level_patch.c: what a patch's bytes begin with; strands, pieces, undecided follow. */
+/* level_patch.c: what a patch's bytes begin with; strands, pieces, undecided, umbilics follow. */
 struct patch_header {
 	char magic[8]; /* level_join refuses others */
-	int patch, n_strands, n_pieces, n_undecided;
+	int patch, n_strands, n_pieces, n_undecided, n_umbilics, unused;
 };
-#define PATCH_MAGIC "level 3"
+#define PATCH_MAGIC "level 4"
 
 /* level_join.c: the header of one patch's bytes at *at, behind `last` of all `patches`; false where they are
  * not whole. And whether a strand of it is one. */
@@ -460,6 +475,11 @@ struct link {
 	int mark;     /* LINK_END: where it ends, counted from 1 */
 };
 
+struct patch_umbilic {
+	struct umbilic x; /* in the patch */
+	int patch;
+};
+
 /* All patches' strands in one array. */
 struct joint {
 	const struct level *level;
@@ -469,6 +489,7 @@ struct joint {
 	size_t n_strands, n_pieces;
 	struct link *links;            /* owned, 2 a strand */
 	struct list boxes;             /* struct level_box, undecided */
+	struct list umbilics;          /* struct patch_umbilic */
 	const struct level_box *marks; /* what they became */
 };
 
@@ -505,6 +526,28 @@ enum status level_branch_make(const struct joint *j, const size_t *entries, size
 /* level_region.c: boxes that touch become one, of one kind; say which strands end there. Errors:
  * ST_RESOURCE. */
 enum status level_regions(struct joint *j, struct level_result *out);
+
+/* Boxes that touch, over seams, too, as one each. *out is the caller's. Errors: ST_RESOURCE. */
+enum status level_boxes_unite(const struct level_surface *s, struct level_box *b, size_t n,
+                              struct level_box **out, size_t *n_out);
+
+/* level_umbilics.c: those of all patches; before level_regions. Errors: ST_RESOURCE. */
+enum status level_umbilics_join(struct joint *j, struct level_result *out);
+
+/* The umbilic that the box is about; NULL: none, or several. */
+const struct level_umbilic *level_umbilic_in(const struct level_surface *s,
+                                             const struct level_result *x,
+                                             const struct level_box *b);
+
+/* Branches that reach such a mark end in one point there, if they can. */
+static inline bool level_mark_joins(enum level_mark kind)
+{
+	return kind == LEVEL_CROSSING || kind == LEVEL_SINGULAR || kind == LEVEL_UMBILIC;
+}
+
+/* level_region.c: the place in a patch that has u, v, and which it is; a place beyond a seam at the lower end. */
+int level_patch_at(const struct level_surface *s, const double uv[2], double out[2]);
+void level_into_domain(const struct level_surface *s, double uv[2]);
 
 /* The point of the surface at u, v. */
 void level_point_at(const struct level_surface *s, const double uv[2], double p[3]);

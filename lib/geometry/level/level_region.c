@@ -8,12 +8,14 @@
 /* Marks no larger than this part of the size are a point, if the tolerance is not larger. */
 static const double point_share = 1e-4;
 
-/* So much larger may one about a point without a normal be. */
+/* So much larger may one about a point without a normal be; one about an umbilic, where f is a difference of
+ * squares that both vanish. */
 #define SINGULAR_TIMES 10
+#define UMBILIC_TIMES  100
 
 const char *const level_mark_names[N_LEVEL_MARKS] = {
-	[LEVEL_POINT] = "point",   [LEVEL_CROSSING] = "crossing", [LEVEL_SINGULAR] = "singular",
-	[LEVEL_REGION] = "region", [LEVEL_GRAZE] = "graze",
+	[LEVEL_POINT] = "point",     [LEVEL_CROSSING] = "crossing", [LEVEL_SINGULAR] = "singular",
+	[LEVEL_UMBILIC] = "umbilic", [LEVEL_REGION] = "region",     [LEVEL_GRAZE] = "graze",
 };
 
 static int box_compare(const void *x, const void *y)
@@ -84,7 +86,7 @@ static void region_add(struct level_box *to, const struct level_box *b)
 }
 
 /* The place in the patch that has u, v, and which it is. */
-static int patch_at(const struct level_surface *s, const double uv[2], double out[2])
+int level_patch_at(const struct level_surface *s, const double uv[2], double out[2])
 {
 	int place[2];
 	for (int d = 0; d < 2; d++) {
@@ -101,7 +103,7 @@ static int patch_at(const struct level_surface *s, const double uv[2], double ou
 void level_point_at(const struct level_surface *s, const double uv[2], double p[3])
 {
 	double at[2], x[4], xu[4], xv[4];
-	int patch = patch_at(s, uv, at);
+	int patch = level_patch_at(s, uv, at);
 	const double *c = bezier_patch(&s->net, patch / s->net.spans[1], patch % s->net.spans[1]);
 	form_evaluate4(c, s->net.order[0] - 1, s->net.order[1] - 1, at[0], at[1], x, xu, xv);
 	for (int d = 0; d < 3; d++)
@@ -109,7 +111,7 @@ void level_point_at(const struct level_surface *s, const double uv[2], double p[
 }
 
 /* A place beyond a seam is one at the lower end. */
-static void into_domain(const struct level_surface *s, double uv[2])
+void level_into_domain(const struct level_surface *s, double uv[2])
 {
 	for (int d = 0; d < 2; d++)
 		if (uv[d] > s->net.breaks[d][s->net.spans[d]])
@@ -124,7 +126,7 @@ static double box_size(const struct level_surface *s, const struct level_box *b)
 	level_point_at(s, b->lo, p);
 	for (int k = 1; k < 4; k++) {
 		double uv[2] = { k & 1 ? b->hi[0] : b->lo[0], k & 2 ? b->hi[1] : b->lo[1] };
-		into_domain(s, uv);
+		level_into_domain(s, uv);
 		level_point_at(s, uv, q);
 		most = larger(most, vec3_length(vec3_sub(vec3_of(p), vec3_of(q))));
 	}
@@ -186,30 +188,37 @@ static void marks_name(struct joint *j, struct level_result *out, const double n
 		struct level_box *b = &out->undecided[i];
 		for (int d = 0; d < 2; d++)
 			b->at[d] = 0.5 * (b->lo[d] + b->hi[d]);
-		into_domain(s, b->at);
+		level_into_domain(s, b->at);
+		const struct level_umbilic *u = box_size(s, b) <= UMBILIC_TIMES * small
+		                                        ? level_umbilic_in(s, out, b)
+		                                        : NULL;
+		if (u)
+			memcpy(b->at, u->at, sizeof u->at);
 		if (b->kind != LEVEL_GRAZE)
-			b->kind =
-			        box_size(s, b) <= SINGULAR_TIMES * small && singular_in(s, b, near)
-			                ? LEVEL_SINGULAR
-			        : box_size(s, b) > small ? LEVEL_REGION
-			        : b->ends > 0            ? LEVEL_CROSSING
-			                                 : LEVEL_POINT;
+			b->kind = u ? LEVEL_UMBILIC
+			          : box_size(s, b) <= SINGULAR_TIMES * small &&
+			                          singular_in(s, b, near)
+			                  ? LEVEL_SINGULAR
+			          : box_size(s, b) > small ? LEVEL_REGION
+			          : b->ends > 0            ? LEVEL_CROSSING
+			                                   : LEVEL_POINT;
 	}
 	j->marks = out->undecided;
 }
 
 /* Regions that meet over a seam are one, which goes on beyond the upper end. */
-static void seams_unite(const struct level_surface *s, struct level_result *x, const double near[2])
+static void seams_unite(const struct level_surface *s, struct level_box *all, size_t *n,
+                        const double near[2])
 {
 	for (int d = 0; d < 2; d++) {
 		const double lo = s->net.breaks[d][0], hi = s->net.breaks[d][s->net.spans[d]];
-		for (size_t i = 0; s->net.closed[d] && i < x->n_undecided; i++) {
-			struct level_box *a = &x->undecided[i];
+		for (size_t i = 0; s->net.closed[d] && i < *n; i++) {
+			struct level_box *a = &all[i];
 			if (a->hi[d] < hi - near[d] || a->hi[d] > hi + near[d] ||
 			    a->lo[d] <= lo + near[d])
 				continue;
-			for (size_t k = 0; k < x->n_undecided; k++) {
-				struct level_box b = x->undecided[k];
+			for (size_t k = 0; k < *n; k++) {
+				struct level_box b = all[k];
 				if (k == i || b.lo[d] > lo + near[d] || b.hi[d] >= hi - near[d] ||
 				    a->lo[1 - d] > b.hi[1 - d] + near[1 - d] ||
 				    b.lo[1 - d] > a->hi[1 - d] + near[1 - d])
@@ -217,8 +226,7 @@ static void seams_unite(const struct level_surface *s, struct level_result *x, c
 				b.lo[d] += hi - lo;
 				b.hi[d] += hi - lo;
 				region_add(a, &b);
-				memmove(&x->undecided[k], &x->undecided[k + 1],
-				        sizeof *x->undecided * (--x->n_undecided - k));
+				memmove(&all[k], &all[k + 1], sizeof *all * (--*n - k));
 				i -= k < i;
 				break;
 			}
@@ -226,37 +234,52 @@ static void seams_unite(const struct level_surface *s, struct level_result *x, c
 	}
 }
 
-enum status level_regions(struct joint *j, struct level_result *out)
+static void near_of(const struct level_surface *s, double near[2])
 {
-	const struct bezier_net *net = &j->level->surface->net;
-	struct level_box *b = j->boxes.p;
-	size_t n = j->boxes.n, *parent, *active;
-	double near[2];
-	if (n == 0)
-		return ST_OK;
 	for (int d = 0; d < 2; d++)
-		near[d] = 1e-9 * (net->breaks[d][net->spans[d]] - net->breaks[d][0]);
+		near[d] = 1e-9 * level_range(s, d);
+}
+
+enum status level_boxes_unite(const struct level_surface *s, struct level_box *b, size_t n,
+                              struct level_box **out, size_t *n_out)
+{
+	double near[2];
+	near_of(s, near);
 	qsort(b, n, sizeof *b, box_compare);
-	out->undecided = malloc(sizeof *out->undecided * n);
-	parent = malloc(sizeof *parent * 2 * n);
-	if (!out->undecided || !parent) {
+	struct level_box *to = malloc(sizeof *to * n);
+	size_t *parent = malloc(sizeof *parent * 2 * n);
+	if (!to || !parent) {
+		free(to);
 		free(parent);
 		return ST_RESOURCE;
 	}
-	active = parent + n;
+	size_t *active = parent + n, *place = active;
 	regions_sweep(b, n, near, parent, active);
-	size_t *place = active;
+	*n_out = 0;
 	for (size_t i = 0; i < n; i++) {
 		size_t root = root_of(parent, i);
 		if (root == i) {
-			place[i] = out->n_undecided;
-			out->undecided[out->n_undecided++] = b[i];
+			place[i] = *n_out;
+			to[(*n_out)++] = b[i];
 		} else {
-			region_add(&out->undecided[place[root]], &b[i]);
+			region_add(&to[place[root]], &b[i]);
 		}
 	}
 	free(parent);
-	seams_unite(j->level->surface, out, near);
-	marks_name(j, out, near);
+	seams_unite(s, to, n_out, near);
+	*out = to;
 	return ST_OK;
+}
+
+enum status level_regions(struct joint *j, struct level_result *out)
+{
+	double near[2];
+	if (j->boxes.n == 0)
+		return ST_OK;
+	near_of(j->level->surface, near);
+	enum status st = level_boxes_unite(j->level->surface, j->boxes.p, j->boxes.n,
+	                                   &out->undecided, &out->n_undecided);
+	if (st == ST_OK)
+		marks_name(j, out, near);
+	return st;
 }
