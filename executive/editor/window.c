@@ -187,6 +187,7 @@ static void keep_session(struct window *w)
 
 static void finish(struct window *w)
 {
+	window_load_end(w);
 	if (w->link)
 		keep_session(w);
 	jobs_link_destroy(w->link);
@@ -252,7 +253,9 @@ static void wait_events(struct window *w)
 		until = fmin(until, now + AGAIN_S);
 	if (!desk_world_lent(w->desk) && world_revision(w->world) != w->kept_revision)
 		until = fmin(until, fmax(w->kept_at + KEEP_S, now + 1));
-	if (isinf(until))
+	if (w->soon && !desk_world_lent(w->desk))
+		glfwPollEvents();
+	else if (isinf(until))
 		glfwWaitEvents();
 	else
 		glfwWaitEventsTimeout(fmax(until - now, 0.001));
@@ -284,7 +287,10 @@ int mode_window(int argc, char **argv)
 	/* a software driver takes megabytes for each frame and gives them back: they stay with us */
 	mallopt(M_MMAP_THRESHOLD, 32 << 20);
 	mallopt(M_TRIM_THRESHOLD, 128 << 20);
-	struct window w = { .report = report_stderr("batten"), .link_state = LINK_CONNECTING };
+	struct window w = { .report = report_stderr("batten"),
+		            .link_state = LINK_CONNECTING,
+		            .shown = -1 };
+	window_load_begin(&w);
 	pango_cairo_font_map_get_default(); /* a thread of its own finds the fonts */
 	enum status st = window_connect(&w);
 
@@ -294,6 +300,8 @@ int mode_window(int argc, char **argv)
 		st = make_desk(&w);
 	if (st == ST_OK) { /* files are read while the driver makes the window */
 		desk_open(w.desk, (const char *const *)argv, argc);
+		window_load_letters();
+		window_load_end(&w);
 		st = window_open(&w);
 	}
 	if (st == ST_OK)

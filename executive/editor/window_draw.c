@@ -19,9 +19,16 @@ static void clear_views(struct window *w, enum theme theme)
 	glClear(GL_COLOR_BUFFER_BIT);
 }
 
+/* What comes new is seen sooner as it is drawn while dragged: with less of the driver and no samples. */
+static bool is_new(const struct window *w)
+{
+	return world_count(w->world) > w->shown;
+}
+
 static void draw_views(struct window *w)
 {
 	int n;
+	const bool soon = is_new(w);
 	struct desk_tile *tile = desk_tiles(w->desk, &n);
 	struct report_store store;
 
@@ -42,13 +49,17 @@ static void draw_views(struct window *w)
 		bool more = false;
 		if (width <= 0 || height <= 0 || tile[k].is_uv)
 			continue;
-		if (view_draw(w->view, w->world, &tile[k].view, x, w->height - y - height, width,
-		              height, &more, &store.report) != ST_OK)
+		struct view_state state = tile[k].view;
+		state.moving |= soon;
+		if (view_draw(w->view, w->world, &state, x, w->height - y - height, width, height,
+		              &more, &store.report) != ST_OK)
 			desk_say(w->desk, REPORT_ERROR, "%s", store.error);
 		w->again |= more;
 		window_feel_display(w);
 	}
 	compose_view_end(w->compose);
+	w->soon = soon && w->again;
+	w->shown = world_count(w->world);
 }
 
 static void paint_part(struct window *w, enum desk_part part)

@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <pthread.h>
 #include <stdatomic.h>
 
 #include "compose.h"
@@ -29,6 +30,10 @@ struct window {
 	double per_screen; /* device px a screen coordinate of GLFW */
 	double x, y;       /* of the mouse, logical; told to the desk before anything else is */
 	bool moved, closing, again; /* again: a view can be drawn better than it was */
+	bool soon;                  /* at once: what came new was drawn as while it is dragged */
+	int shown;                  /* things when the views were drawn last; -1: they never were */
+	pthread_t loader;
+	bool loading;
 	atomic_bool woken;
 	struct errand *errand; /* borrowed from the desk while its thread runs */
 	enum link_state link_state;
@@ -42,6 +47,12 @@ enum status window_connect(struct window *w);
 enum status window_open(struct window *w);
 void window_mind_display(struct window *w); /* once it is open: see to the end of the X server */
 void window_feel_display(struct window *w); /* ends the editor where the X server went away */
+
+/* window_start.c: a thread loads the driver's code, which a software driver has much of; joined before
+ * the window is opened. Letters: each kind is drawn once, so that its font is there. */
+void window_load_begin(struct window *w);
+void window_load_end(struct window *w);
+void window_load_letters(void);
 
 /* window_input.c */
 void window_listen(struct window *w);

@@ -19,11 +19,6 @@ enum status view_create(struct view **out, const struct report *r)
 	struct view *v = calloc(1, sizeof *v);
 	if (!v)
 		return report_error(r, ST_RESOURCE, "cannot draw: memory ran out");
-	enum status st = programs_init(&v->programs, r);
-	if (st != ST_OK) {
-		free(v);
-		return st;
-	}
 	glGenVertexArrays(1, &v->empty);
 	*out = v;
 	return ST_OK;
@@ -384,6 +379,8 @@ enum status view_draw(struct view *v, const struct world *w, const struct view_s
 		texts_begin(v);
 		st = draw_all(&d);
 		texts_end(v);
+		if (st == ST_OK && v->programs.failed)
+			st = report_error(r, ST_INTERNAL, "cannot draw: %s", v->programs.why);
 		if (st == ST_OK)
 			copy(&v->plain, (GLuint)bound, x, y);
 		*more = d.more || s->moving;

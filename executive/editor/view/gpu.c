@@ -185,10 +185,9 @@ static bool load_lengths(const struct gpu_frame *f, struct gpu_poly *g, const st
 
 static const GLint *use(const struct gpu_frame *f, enum program program, struct vec3 origin)
 {
-	const GLint *u = f->programs->uniform[program];
+	const GLint *u = program_use(f->programs, program);
 	float m[16];
 	gpu_matrix(f, origin, m);
-	glUseProgram(f->programs->id[program]);
 	glUniformMatrix4fv(u[UNIFORM_MATRIX], 1, GL_FALSE, m);
 	glUniform2f(u[UNIFORM_VIEWPORT], (float)f->width, (float)f->height);
 	return u;

@@ -34,7 +34,7 @@ void gpu_ribbon_finish(struct gpu_ribbon *g);
 
 /* Where things are drawn: clip = matrix x place in the world. */
 struct gpu_frame {
-	const struct programs *programs;
+	struct programs *programs;
 	double matrix[16]; /* column by column */
 	int width, height; /* device px */
 	double scale;      /* device px a logical px */

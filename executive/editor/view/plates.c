@@ -33,9 +33,8 @@ void plate_load(struct plate *p, cairo_surface_t *surface)
 void plate_draw(const struct drawing *d, const struct plate *p, double x, double y, double width,
                 double height)
 {
-	const GLint *u = d->frame.programs->uniform[PROGRAM_PLATE];
+	const GLint *u = program_use(d->frame.programs, PROGRAM_PLATE);
 	const GLboolean tested = glIsEnabled(GL_DEPTH_TEST);
-	glUseProgram(d->frame.programs->id[PROGRAM_PLATE]);
 	glUniform4f(u[UNIFORM_PLACE], (float)x, (float)y, (float)width, (float)height);
 	glUniform2f(u[UNIFORM_VIEWPORT], (float)d->frame.width, (float)d->frame.height);
 	glUniform1i(u[UNIFORM_PICTURE], 0);

@@ -1,6 +1,7 @@
 /* program.c - shaders compiled and linked. */
 #include "program.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const char *const program_names[N_PROGRAMS] = {
@@ -14,61 +15,61 @@ static const char *const uniform_names[N_UNIFORMS] = { UNIFORM_MAP(X) };
 
 enum { LOG_SIZE = 512 };
 
-static enum status compile(GLuint *out, GLenum kind, const char *source, const char *name,
-                           const struct report *r)
+static void fail(struct programs *p, const char *what, const char *name, const char *log)
+{
+	if (!p->failed)
+		snprintf(p->why, sizeof p->why, "the %s of '%s' cannot be used: %s", what, name,
+		         log);
+	p->failed = true;
+}
+
+static GLuint compile(struct programs *p, GLenum kind, const char *source, const char *name)
 {
 	GLint done = 0;
 	char log[LOG_SIZE] = "";
-	*out = glCreateShader(kind);
-	glShaderSource(*out, 1, &source, NULL);
-	glCompileShader(*out);
-	glGetShaderiv(*out, GL_COMPILE_STATUS, &done);
-	if (done)
-		return ST_OK;
-	glGetShaderInfoLog(*out, sizeof log, NULL, log);
-	return report_error(r, ST_INTERNAL, "the %s shader of '%s' does not compile: %s",
-	                    kind == GL_VERTEX_SHADER ? "vertex" : "fragment", name, log);
-}
-
-static enum status link(GLuint program, const GLuint shader[2], const char *name,
-                        const struct report *r)
-{
-	GLint done = 0;
-	char log[LOG_SIZE] = "";
-	for (int k = 0; k < 2; k++)
-		glAttachShader(program, shader[k]);
-	glLinkProgram(program);
-	for (int k = 0; k < 2; k++)
-		glDetachShader(program, shader[k]);
-	glGetProgramiv(program, GL_LINK_STATUS, &done);
-	if (done)
-		return ST_OK;
-	glGetProgramInfoLog(program, sizeof log, NULL, log);
-	return report_error(r, ST_INTERNAL, "the shaders of '%s' do not link: %s", name, log);
-}
-
-enum status programs_init(struct programs *p, const struct report *r)
-{
-	enum status st = ST_OK;
-	memset(p, 0, sizeof *p);
-	for (int i = 0; i < N_PROGRAMS && st == ST_OK; i++) {
-		GLuint shader[2] = { 0, 0 };
-		st = compile(&shader[0], GL_VERTEX_SHADER, shader_source[i][0], program_names[i],
-		             r);
-		if (st == ST_OK)
-			st = compile(&shader[1], GL_FRAGMENT_SHADER, shader_source[i][1],
-			             program_names[i], r);
-		p->id[i] = glCreateProgram();
-		if (st == ST_OK)
-			st = link(p->id[i], shader, program_names[i], r);
-		for (int k = 0; k < 2; k++)
-			glDeleteShader(shader[k]);
-		for (int u = 0; u < N_UNIFORMS && st == ST_OK; u++)
-			p->uniform[i][u] = glGetUniformLocation(p->id[i], uniform_names[u]);
+	const GLuint shader = glCreateShader(kind);
+	glShaderSource(shader, 1, &source, NULL);
+	glCompileShader(shader);
+	glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+	if (!done) {
+		glGetShaderInfoLog(shader, sizeof log, NULL, log);
+		fail(p, kind == GL_VERTEX_SHADER ? "vertex shader" : "fragment shader", name, log);
 	}
-	if (st != ST_OK)
-		programs_finish(p);
-	return st;
+	return shader;
+}
+
+static void make(struct programs *p, enum program program)
+{
+	const char *name = program_names[program];
+	const GLuint id = p->id[program] = glCreateProgram();
+	GLint done = 0;
+	char log[LOG_SIZE] = "";
+	GLuint shader[2];
+	for (int k = 0; k < 2; k++) {
+		shader[k] = compile(p, k ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER,
+		                    shader_source[program][k], name);
+		glAttachShader(id, shader[k]);
+	}
+	glLinkProgram(id);
+	for (int k = 0; k < 2; k++) {
+		glDetachShader(id, shader[k]);
+		glDeleteShader(shader[k]);
+	}
+	glGetProgramiv(id, GL_LINK_STATUS, &done);
+	if (!done) {
+		glGetProgramInfoLog(id, sizeof log, NULL, log);
+		fail(p, "program", name, log);
+	}
+	for (int u = 0; u < N_UNIFORMS; u++)
+		p->uniform[program][u] = done ? glGetUniformLocation(id, uniform_names[u]) : -1;
+}
+
+const GLint *program_use(struct programs *p, enum program program)
+{
+	if (!p->id[program])
+		make(p, program);
+	glUseProgram(p->id[program]);
+	return p->uniform[program];
 }
 
 void programs_finish(struct programs *p)

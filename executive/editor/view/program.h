@@ -4,7 +4,7 @@
 
 #include <epoxy/gl.h>
 
-#include "report.h"
+#include <stdbool.h>
 
 /* What is drawn, each by a program of its own. */
 enum program {
@@ -49,13 +49,16 @@ enum program {
 enum uniform { UNIFORM_MAP(X) N_UNIFORMS };
 #undef X
 
+/* Each is compiled when it is first used. A zeroed one is ready. */
 struct programs {
 	GLuint id[N_PROGRAMS];
+	bool failed; /* why has the compiler's words */
+	char why[600];
 	GLint uniform[N_PROGRAMS][N_UNIFORMS];
 };
 
-/* Errors: ST_INTERNAL with the compiler's words. A zeroed one may be finished. */
-enum status programs_init(struct programs *p, const struct report *r);
+/* Use it from now on; gives its uniforms. One that fails draws nothing and is told of in `failed`. */
+const GLint *program_use(struct programs *p, enum program program);
 void programs_finish(struct programs *p);
 
 /* shaders.c: GLSL, vertex then fragment. */

@@ -123,7 +123,6 @@ static void draw_surface(struct drawing *d, const struct Ful *f, struct shape *x
 	const bool map = look_of(d, f) == LOOK_MAP;
 	const bool quick = d->state->moving && !map && is_small(d, x, m);
 	const enum program program = quick ? PROGRAM_QUICK : PROGRAM_SURFACE;
-	const GLint *u = d->frame.programs->uniform[program];
 	const struct sight *s = world_sight((struct world *)d->world);
 	const struct rgb color = surface_color(f);
 	const double shine = (s->specular.r + s->specular.g + s->specular.b) / 3 *
@@ -131,7 +130,7 @@ static void draw_surface(struct drawing *d, const struct Ful *f, struct shape *x
 	float matrix[16];
 	if (!m->gpu.n || m->failed)
 		return;
-	glUseProgram(d->frame.programs->id[program]);
+	const GLint *u = program_use(d->frame.programs, program);
 	gpu_matrix(&d->frame, x->origin, matrix);
 	glUniformMatrix4fv(u[UNIFORM_MATRIX], 1, GL_FALSE, matrix);
 	set_eye(d, u, x->origin);

@@ -340,7 +340,7 @@ static void set_color(GLint at, struct rgb c)
 
 bool map_use(struct drawing *d, int thing)
 {
-	const GLint *u = d->frame.programs->uniform[PROGRAM_SURFACE];
+	const GLint *u = program_use(d->frame.programs, PROGRAM_SURFACE);
 	const struct colormap *c = &d->view->key.map;
 	struct map *m = find_map(d->view, thing, false);
 	const int q = map_quantity(d, overlay_of(d->world, OVERLAY_MAP, thing));
