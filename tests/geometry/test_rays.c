@@ -181,6 +181,37 @@ static void rays_through_borders_and_poles(void **state)
 	surface_finish(&s);
 }
 
+/* Right through a pole, where the patch seems to run on with its other side up. */
+static void normals_at_poles_point_out(void **state)
+{
+	static const double sizes[] = { 1, 1e-9, 1e9 };
+	uint64_t seed = 17;
+
+	(void)state;
+	for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+		struct surface s = shape_sphere(sizes[k]);
+		struct ray_scene *scene = scene_of(&s);
+		for (int i = 0; i < 150; i++) {
+			const double z = i % 2 ? sizes[k] : -sizes[k];
+			struct vec3 d = random_direction(&seed);
+			struct ray r = { vec3_along(vec3(0, 0, z), -4 * sizes[k], d), d, 0,
+				         INFINITY };
+			struct ray_hit one, group = trace_one(scene, r);
+
+			if (fabs(d.z) < 0.01)
+				continue;
+			ray_scene_hit(scene, &r, &one);
+			assert_int_equal(group.surface, 0);
+			assert_int_equal(one.surface, 0);
+			assert_true(fabs(vec3_dot(group.normal, group.point) / sizes[k] - 1) <
+			            1e-6);
+			assert_true(fabs(vec3_dot(one.normal, one.point) / sizes[k] - 1) < 1e-6);
+		}
+		ray_scene_destroy(scene);
+		surface_finish(&s);
+	}
+}
+
 /* Any orders: from a point of the surface straight back, the ray must hit there or before. */
 static void orders_and_knots(void **state)
 {
@@ -305,6 +336,7 @@ int main(void)
 		cmocka_unit_test(cylinder_by_formula),
 		cmocka_unit_test(closed_surfaces_have_no_holes),
 		cmocka_unit_test(rays_through_borders_and_poles),
+		cmocka_unit_test(normals_at_poles_point_out),
 		cmocka_unit_test(orders_and_knots),
 		cmocka_unit_test(collapsed_side),
 		cmocka_unit_test(part_of_the_domain),

@@ -21,6 +21,29 @@ static double within_one(double x)
 	return x < 0 ? 0 : x > 1 ? 1 : x;
 }
 
+/* Newton's last step may lead over a side of the patch by less than this. */
+static const double beside_side = 2e-6;
+static const double well_inside = 1e-5;
+
+/*
+ * Beyond a side that is one point the patch runs on with its other side up. What is found there has
+ * the normal of the inside, which is taken a little way in.
+ */
+static struct vec3 turned_back(const struct surface *s, const struct ray_patch *p,
+                               const struct ray_hit *h, double a, double b, struct vec3 normal)
+{
+	const double in[2] = { fmin(fmax(a, well_inside), 1 - well_inside),
+		               fmin(fmax(b, well_inside), 1 - well_inside) };
+	struct vec3 inside, limit;
+	if (!surface_normal(s, (1 - in[0]) * p->u[0] + in[0] * p->u[1],
+	                    (1 - in[1]) * p->v[0] + in[1] * p->v[1], &inside) ||
+	    vec3_dot(inside, normal) >= 0)
+		return normal;
+	if (surface_normal(s, h->u, h->v, &limit) && vec3_dot(inside, limit) > 0)
+		return limit;
+	return inside;
+}
+
 static void found_hit(const struct ray_scene *s, const struct ray_found *f, double shift,
                       struct ray_hit *out)
 {
@@ -46,6 +69,8 @@ static void found_hit(const struct ray_scene *s, const struct ray_found *f, doub
 		out->normal = limit;
 	else
 		out->normal = vec3_scale(f->normal, length > 0 ? 1 / length : 0);
+	if (fmin(u, v) < beside_side || fmax(u, v) > 1 - beside_side)
+		out->normal = turned_back(s->surfaces[out->surface], patch, out, u, v, out->normal);
 }
 
 /* The lanes that have a hit, of the first `count`. */
