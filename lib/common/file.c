@@ -113,7 +113,7 @@ static int open_nameless(const char *path)
 {
 	char *folder = path_folder(path);
 	int fd = folder && path_exists("/proc/self/fd")
-	                 ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666)
+	                 ? open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666)
 	                 : -1;
 
 	free(folder);
@@ -208,7 +208,7 @@ enum status whole_file_create(struct whole_file *f, const char *path, const stru
 		whole_file_abandon(f);
 		return fail(r, "write", path, error);
 	}
-	f->stream = fdopen(fd, "w");
+	f->stream = fdopen(fd, "w+");
 	if (!f->stream) {
 		close(fd);
 		whole_file_abandon(f);

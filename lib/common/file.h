@@ -32,7 +32,7 @@ enum status file_read_open(int fd, struct text *t);
  * synced). Until then nothing is to be seen of it, and a process that is killed leaves nothing.
  */
 struct whole_file {
-	FILE *stream; /* write here; owned */
+	FILE *stream; /* write here, read again if you like; owned */
 	char *path;   /* owned */
 	char *temp;   /* owned; NULL while it has no name */
 };

@@ -216,12 +216,13 @@ static double even_own(const struct iges_course *c, double share, double *rate)
 	int lo = cell_of(c->length, c->n_at, aim);
 	double a = c->at[lo], b = c->at[lo + 1], cell = c->length[lo + 1] - c->length[lo];
 	double t = cell > 0 ? a + (b - a) * (aim - c->length[lo]) / cell : a, speed = 0;
+	/* lengths within the cell need no more digits of their own than the whole has */
+	double accuracy = cell > 0 ? fmin(length_within * whole / cell, 1e-6) : length_within;
 	for (int i = 0; i < STEPS_MAX; i++) {
 		struct vec3 x[2];
 		curve_derivatives(&c->even, t, 1, x);
 		speed = vec3_length(x[1]);
-		double off =
-		        c->length[lo] + curve_length(&c->even, c->at[lo], t, length_within) - aim;
+		double off = c->length[lo] + curve_length(&c->even, c->at[lo], t, accuracy) - aim;
 		if (fabs(off) <= length_within * whole)
 			break;
 		*(off < 0 ? &a : &b) = t;

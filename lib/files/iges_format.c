@@ -6,17 +6,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "file.h"
 #include "number.h"
 #include "refine.h"
 
-enum { DATA_COLUMNS = 64, SEQUENCE_MAX = 9999999 };
+enum { DATA_COLUMNS = 64, SEQUENCE_MAX = 9999999, LINES_KEPT = 1 << 16 };
+
+void iges_let_go(struct text *lines, FILE *to, size_t kept)
+{
+	if (!to || lines->n <= kept)
+		return;
+	fwrite(lines->s, 1, lines->n, to);
+	text_reset(lines);
+}
 
 static void end_line(struct iges_writer *w)
 {
 	text_addf(&w->data, "%-*s%8dP%7d\n", DATA_COLUMNS, w->line.s ? w->line.s : "", w->de,
 	          ++w->n_p);
 	text_reset(&w->line);
+	iges_let_go(&w->data, w->data_to, LINES_KEPT);
 }
 
 /* A parameter with its delimiter; it does not run over a line's end. */
@@ -85,6 +93,7 @@ static void put_entry(struct iges_writer *w, int type, int form, int lines, int 
 	text_addf(&w->directory, "%8d%8d%8d%8d%8d%8s%8s%8s%8dD%7d\n", type, 0, color, lines, form,
 	          "", "", "", 0, w->n_d + 2);
 	w->n_d += 2;
+	iges_let_go(&w->directory, w->directory_to, LINES_KEPT);
 }
 
 static bool all_weights_equal(const double *points, size_t n)
@@ -355,36 +364,10 @@ bool iges_holds(const struct entity *e)
 	       (e->kind == ENTITY_POINTS && e->points.dimension == 3 && e->points.n > 0);
 }
 
-void iges_format(const struct model *m, struct text *out)
+bool iges_put_model(struct iges_writer *w, const struct model *m)
 {
-	struct iges_writer w = { 0 };
-	w.data.failed |= put_entities(&w, m) != ST_OK;
-	iges_put_groups(&w);
-	int n_s = iges_put_start(out);
-	int n_g = iges_put_global(m, out);
-	text_add_bytes(out, w.directory.s, w.directory.n);
-	text_add_bytes(out, w.data.s, w.data.n);
-	text_addf(out, "S%7dG%7dD%7dP%7d%40sT%7d\n", n_s, n_g, w.n_d, w.n_p, "", 1);
-	out->failed |= w.directory.failed || w.data.failed || w.line.failed ||
-	               w.n_p > SEQUENCE_MAX || w.n_d > SEQUENCE_MAX;
-	text_finish(&w.directory);
-	text_finish(&w.data);
-	text_finish(&w.line);
-	free(w.members);
-}
-
-enum status iges_write(const struct model *m, const char *path, const struct report *r)
-{
-	struct text t = { 0 };
-	if (!m->unit)
-		report_warning(r, "the geometry has no unit; '%s' says millimetres, IGES wants one",
-		               path);
-	iges_format(m, &t);
-	enum status st = t.failed ? report_error(r, ST_RESOURCE,
-	                                         "cannot write '%s': no memory, or more lines than "
-	                                         "IGES can number (9999999)",
-	                                         path)
-	                          : file_write(path, t.s, t.n, r);
-	text_finish(&t);
-	return st;
+	w->data.failed |= put_entities(w, m) != ST_OK;
+	iges_put_groups(w);
+	return !w->directory.failed && !w->data.failed && !w->line.failed &&
+	       w->n_p <= SEQUENCE_MAX && w->n_d <= SEQUENCE_MAX;
 }

@@ -27,6 +27,8 @@ static enum status side_read(struct iges *g, int de, int depth, bool by_length, 
 		curve_reverse(&out->c);
 	curve_reparametrise(&out->c, 0, 1);
 	if (by_length) {
+		/* dear: as if it read as many lines more */
+		g->budget -= (int64_t)out->c.n * (2 + out->c.order * out->c.order / 96);
 		st = iges_course_even(&out->c, &out->course);
 		return st == ST_INPUT ? ST_OK : st; /* a point runs as it likes */
 	}

@@ -2,6 +2,8 @@
 #ifndef BATTEN_IGES_WRITER_H
 #define BATTEN_IGES_WRITER_H
 
+#include <stdio.h>
+
 #include "iges.h"
 #include "number.h"
 
@@ -12,14 +14,20 @@ struct iges_member {
 };
 
 struct iges_writer {
-	struct text directory, data; /* whole lines */
-	struct text line;            /* data columns of the P line begun */
-	int n_d, n_p;                /* lines in them */
-	int de;                      /* of the entity at hand */
-	int from;                    /* P lines before it */
-	struct iges_member *members; /* owned; in the order of their numbers */
+	struct text directory, data;  /* whole lines, or the last of them where they go to files */
+	FILE *directory_to, *data_to; /* borrowed; NULL: all lines stay in memory */
+	struct text line;             /* data columns of the P line begun */
+	int n_d, n_p;                 /* lines in them */
+	int de;                       /* of the entity at hand */
+	int from;                     /* P lines before it */
+	struct iges_member *members;  /* owned; in the order of their numbers */
 	int n_members;
 };
+
+/* iges_format.c: directory and data of all. False: no memory, or more lines than can be numbered. */
+bool iges_put_model(struct iges_writer *w, const struct model *m);
+/* Lines that are done go to the file, if there is one, when they are more than `kept` bytes. */
+void iges_let_go(struct text *lines, FILE *to, size_t kept);
 
 /* Reals of IGES have a point, and E before the exponent. Returns the length. */
 enum { IGES_REAL_SIZE = NUMBER_SIZE + 2 };

@@ -42,7 +42,7 @@ double curve_length(const struct curve *c, double a, double b, double accuracy)
 	for (int i = 0; i < spans; i++)
 		rough += length_once(c, breaks[i], breaks[i + 1]);
 	for (int i = 0; i < spans; i++) {
-		double whole = length_once(c, breaks[i], breaks[i + 1]);
+		double whole = spans == 1 ? rough : length_once(c, breaks[i], breaks[i + 1]);
 		sum += length_halved(c, breaks[i], breaks[i + 1], whole, accuracy * rough / spans,
 		                     LENGTH_DEPTH);
 	}

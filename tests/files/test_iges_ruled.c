@@ -122,11 +122,46 @@ static void ruled_surfaces_say_their_error(void **state)
 	model_finish(&m);
 }
 
+/* Arc lengths are dear: a small file that wants those of two curves over and over is not given all. */
+static void lengths_are_not_measured_for_ever(void **state)
+{
+	enum { SURFACES = 800 };
+	static struct made_entity entities[SURFACES + 2];
+	static const char curve[] =
+	        "126,25,25,0,0,1,0,"
+	        "0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,0.,"
+	        "1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,"
+	        "1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,1.,";
+	char with_points[2048];
+	struct text t = { 0 };
+	struct model m;
+	(void)state;
+	int n = snprintf(with_points, sizeof with_points, "%s", curve);
+	for (int i = 0; i < 26; i++)
+		n += snprintf(with_points + n, sizeof with_points - (size_t)n, "%d.,0.,1.,", i);
+	snprintf(with_points + n, sizeof with_points - (size_t)n, "0.,1.,0.,0.,1.;");
+	entities[0] = (struct made_entity){ .type = 126, .parameters = with_points };
+	entities[1] = (struct made_entity){ .type = 110, .parameters = STRAIGHT };
+	for (int i = 0; i < SURFACES; i++)
+		entities[i + 2] = (struct made_entity){ .type = 118, .parameters = "118,1,3,0,0;" };
+	make_iges(&t, &(struct made_file){ 0 }, entities, SURFACES + 2);
+	model_init(&m);
+	assert_int_equal(iges_parse(&m, t.s, t.n, "x.igs", NULL, NULL), ST_OK);
+	assert_true(m.n > 100);
+	assert_int_equal(m.n_skipped, 1);
+	assert_int_equal(m.n + m.skipped[0].count, SURFACES + 2);
+	assert_string_equal(m.skipped[0].reason,
+	                    "it and others refer to each other too many times");
+	model_finish(&m);
+	text_finish(&t);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(ruled_surfaces_run_as_the_standard_has_it),
 		cmocka_unit_test(ruled_surfaces_say_their_error),
+		cmocka_unit_test(lengths_are_not_measured_for_ever),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "file.h"
 #include "iges_made.h"
 
 static void written_is_read_again(void **state)
@@ -203,6 +204,45 @@ static void groups_are_kept(void **state)
 	model_finish(&b);
 }
 
+/* What goes to the disk piece by piece is what is made in memory. */
+static void on_disk_as_in_memory(void **state)
+{
+	enum { POINTS = 3000 };
+	char path[] = "/tmp/batten-iges-XXXXXX";
+	struct model m;
+	struct text t = { 0 };
+	struct report_store store;
+	char *bytes;
+	size_t n;
+	const int fd = mkstemp(path);
+	(void)state;
+	report_store_init(&store);
+	model_init(&m);
+	assert_true(fd >= 0);
+	close(fd);
+	assert_int_equal(model_set_text(&m.unit, "mm"), ST_OK);
+	for (int i = 0; i < POINTS; i++) {
+		struct entity e;
+		entity_init(&e, ENTITY_POINTS);
+		e.points = (struct point_list){ 1, 3, calloc(3, sizeof(double)) };
+		assert_non_null(e.points.values);
+		e.points.values[i % 3] = 0.1 * i;
+		assert_int_equal(model_add(&m, &e), ST_OK);
+	}
+	iges_format(&m, &t);
+	assert_false(t.failed);
+	assert_int_equal(iges_write(&m, path, &store.report), ST_OK);
+	assert_int_equal(file_read(path, 1 << 24, &bytes, &n, NULL), ST_OK);
+	assert_int_equal(n, t.n);
+	assert_memory_equal(bytes, t.s, n);
+	unlink(path);
+	assert_int_equal(iges_write(&m, "/nowhere/at/all/x.igs", &store.report), ST_INPUT);
+	assert_non_null(strstr(store.error, "/nowhere/at/all/x.igs"));
+	free(bytes);
+	text_finish(&t);
+	model_finish(&m);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
@@ -211,6 +251,7 @@ int main(void)
 		cmocka_unit_test(only_what_is_meant_is_written),
 		cmocka_unit_test(groups_are_kept),
 		cmocka_unit_test(a_missing_unit_is_told),
+		cmocka_unit_test(on_disk_as_in_memory),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
