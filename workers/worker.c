@@ -6,6 +6,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include "file.h"
 #include "json.h"
 #include "worker_private.h"
 
@@ -100,6 +101,7 @@ int main(int argc, char **argv)
 	snprintf(name, sizeof name, "batten-%s", worker.name);
 	struct report_store said;
 	report_store_init(&said);
+	file_hold_standard();
 	signal(SIGPIPE, SIG_IGN);
 	signal(SIGXFSZ, SIG_IGN); /* a file grown too large is a write that fails */
 	/* tiles come and go: their memory is kept, not given back and asked for again page by page */

@@ -8,33 +8,15 @@
 #include "verbs.h"
 
 const struct command *const command_table[] = {
-	&command_activate,
-	&command_config,
-	&command_doctor,
-	&command_eval,
-	&command_export,
-	&command_help_verb,
-	&command_hold,
-	&command_import,
-	&command_info,
-	&command_jobs,
-	&command_kill,
-	&command_log,
-	&command_priority,
-	&command_prune,
-	&command_release,
-	&command_render,
-	&command_retry,
-	&command_routines,
-	&command_run,
-	&command_script,
-	&command_serve,
-	&command_shutdown,
-	&command_submit,
-	&command_suspend,
-	&command_wait,
-	&command_workers,
-	NULL,
+	&command_activate, &command_config,  &command_doctor,
+	&command_eval,     &command_export,  &command_help_verb,
+	&command_hold,     &command_import,  &command_info,
+	&command_jobs,     &command_kill,    &command_log,
+	&command_priority, &command_prune,   &command_release,
+	&command_render,   &command_retry,   &command_routines,
+	&command_run,      &command_script,  &command_serve,
+	&command_shutdown, &command_submit,  &command_suspend,
+	&command_wait,     &command_workers, NULL,
 };
 
 const struct command *command_find(const char *name)
@@ -58,11 +40,10 @@ int print_json(json_t *o)
 	char *s = json_write(all, true);
 	json_decref(o);
 	json_decref(all);
-	if (!s || puts(s) < 0 || fflush(stdout)) {
-		free(s);
-		return status_exit(
-		        report_error(&terminal, ST_RESOURCE, "cannot write to standard output"));
-	}
+	/* that standard output takes nothing is said at the end of the verb */
+	if (!s)
+		return status_exit(report_error(&terminal, ST_RESOURCE, "memory ran out"));
+	int rc = puts(s) < 0 ? status_exit(ST_RESOURCE) : 0;
 	free(s);
-	return 0;
+	return rc;
 }

@@ -35,14 +35,22 @@ void job_list_put(struct job_list *l,
                   const struct Stats *s); /* replace the one of that id, or add */
 void job_list_finish(struct job_list *l);
 
-/* {"version":1,"jobs":[...]}, a job a line: *t has the records with that between them; it is finished.
- * Exit status. */
-extern const char job_text_between[];
-int job_text_print(struct text *t);
+/* {"version":1,"jobs":[...]}, a job a line, on standard output as they come. Nothing is printed before
+ * JOB_TEXT_HELD bytes are there or the end: what fails early prints nothing. */
+enum { JOB_TEXT_HELD = 1 << 18 };
+struct job_text {
+	struct text waiting;
+	bool begun; /* with a record */
+	bool failed;
+};
+bool job_text_add(void *data, const char *record, size_t n); /* a client_record */
+bool job_text_put(void *data, const struct Stats *s);        /* a client_job */
+int job_text_end(struct job_text *t);                        /* exit status */
+void job_text_abandon(struct job_text *t);
 int job_list_print_json(const struct job_list *l);
 
-/* The table of `batten jobs`, 80 columns. */
-void job_list_print(const struct job_list *l, bool color, FILE *out);
+/* The table of `batten jobs`, 80 columns. rows: without its head. */
+void job_list_print(const struct job_list *l, bool rows, bool color, FILE *out);
 
 /* Worst exit status of ended jobs: 0 all done, 130 some killed and none failed, 1 else. */
 int job_list_exit(const struct job_list *l);

@@ -66,34 +66,67 @@ void job_list_finish(struct job_list *l)
 	*l = (struct job_list){ 0 };
 }
 
-const char job_text_between[] = ",\n";
+static void job_text_next(struct job_text *t)
+{
+	text_add(&t->waiting, t->begun ? ",\n" : "{\"version\":1,\"jobs\":[\n");
+	t->begun = true;
+}
 
-int job_text_print(struct text *t)
+/* That standard output takes nothing is said at the end of the verb. */
+static bool job_text_out(struct job_text *t, size_t held)
+{
+	if (t->waiting.n < held)
+		return !t->waiting.failed;
+	t->failed |=
+	        t->waiting.failed || fwrite(t->waiting.s, 1, t->waiting.n, stdout) != t->waiting.n;
+	text_reset(&t->waiting);
+	return !t->failed;
+}
+
+bool job_text_add(void *data, const char *record, size_t n)
+{
+	struct job_text *t = data;
+
+	job_text_next(t);
+	text_add_bytes(&t->waiting, record, n);
+	return job_text_out(t, JOB_TEXT_HELD);
+}
+
+bool job_text_put(void *data, const struct Stats *s)
+{
+	struct job_text *t = data;
+
+	job_text_next(t);
+	stats_write(&t->waiting, s);
+	return job_text_out(t, JOB_TEXT_HELD);
+}
+
+int job_text_end(struct job_text *t)
 {
 	const struct report terminal = report_stderr("batten");
-	enum status st = ST_OK;
 
-	if (t->failed)
-		st = report_error(&terminal, ST_RESOURCE, "memory ran out");
-	else if (fputs(t->n ? "{\"version\":1,\"jobs\":[\n" : "{\"version\":1,\"jobs\":[", stdout) <
-	                 0 ||
-	         fwrite(t->n ? t->s : "", 1, t->n, stdout) != t->n || fputs("]}\n", stdout) < 0 ||
-	         fflush(stdout))
-		st = report_error(&terminal, ST_RESOURCE, "cannot write to standard output");
-	text_finish(t);
-	return status_exit(st);
+	text_add(&t->waiting, t->begun ? "]}\n" : "{\"version\":1,\"jobs\":[]}\n");
+	const bool failed = t->failed | t->waiting.failed;
+	if (t->waiting.failed)
+		report_error(&terminal, ST_RESOURCE, "memory ran out");
+	else if (!t->failed)
+		job_text_out(t, 0);
+	job_text_abandon(t);
+	return failed ? status_exit(ST_RESOURCE) : 0;
+}
+
+void job_text_abandon(struct job_text *t)
+{
+	text_finish(&t->waiting);
 }
 
 int job_list_print_json(const struct job_list *l)
 {
-	struct text t = { .failed = l->failed };
+	struct job_text t = { .waiting.failed = l->failed };
 
-	for (size_t i = 0; i < l->n; i++) {
-		if (i)
-			text_add(&t, job_text_between);
-		stats_write(&t, &l->jobs[i]);
-	}
-	return job_text_print(&t);
+	for (size_t i = 0; i < l->n; i++)
+		job_text_put(&t, &l->jobs[i]);
+	return job_text_end(&t);
 }
 
 int job_list_exit(const struct job_list *l)
@@ -167,13 +200,15 @@ static void print_cut(const char *s, int columns, FILE *out)
 		fprintf(out, "%.*s…", (int)(cut - s), s);
 }
 
-void job_list_print(const struct job_list *l, bool color, FILE *out)
+void job_list_print(const struct job_list *l, bool rows, bool color, FILE *out)
 {
-	if (!l->n) {
+	if (!l->n && !rows) {
 		fputs("No jobs. Long computations appear here with their progress.\n", out);
 		return;
 	}
-	fprintf(out, "%5s  %-11s %-12s %-20s %4s  %s\n", "id", "state", "worker", "file", "%", "");
+	if (!rows)
+		fprintf(out, "%5s  %-11s %-12s %-20s %4s  %s\n", "id", "state", "worker", "file",
+		        "%", "");
 	for (size_t i = 0; i < l->n; i++) {
 		const struct Stats *s = &l->jobs[i];
 		double fraction = stats_fraction(s);

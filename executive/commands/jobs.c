@@ -31,10 +31,54 @@ static int follow(struct connection *c, const struct invocation *i, json_t *body
 	return rc;
 }
 
+/* So many rows are held back, so that what fails early prints nothing; the rest is printed as it comes. */
+enum { ROWS_HELD = 1000 };
+
+struct table {
+	struct job_list held;
+	bool begun, color;
+};
+
+static bool table_put(void *data, const struct Stats *s)
+{
+	struct table *t = data;
+
+	if (t->held.n == ROWS_HELD) {
+		job_list_print(&t->held, t->begun, t->color, stdout);
+		job_list_finish(&t->held);
+		t->begun = true;
+	}
+	return job_list_add(&t->held, s) && !ferror(stdout);
+}
+
+static int list_table(struct connection *c, const struct invocation *i, json_t *body)
+{
+	struct table t = { .color = i->color };
+	enum status st =
+	        client_request(c->client, MESSAGE_LIST, body, table_put, NULL, &t, &i->report);
+
+	if (st == ST_OK && t.held.failed)
+		st = report_error(&i->report, ST_RESOURCE, "memory ran out");
+	if (st == ST_OK)
+		job_list_print(&t.held, t.begun, t.color, stdout);
+	job_list_finish(&t.held);
+	return status_exit(st);
+}
+
+static int list_json(struct connection *c, const struct invocation *i, json_t *body)
+{
+	struct job_text t = { 0 };
+	enum status st = client_list(c->client, body, job_text_add, &t, &i->report);
+
+	if (st == ST_OK)
+		return job_text_end(&t);
+	job_text_abandon(&t);
+	return status_exit(st);
+}
+
 static int jobs_run(const struct invocation *i)
 {
 	struct connection c;
-	struct job_list list = { 0 };
 	json_t *body = NULL;
 	enum status st = connection_selection(i, false, &body);
 
@@ -45,21 +89,10 @@ static int jobs_run(const struct invocation *i)
 		return status_exit(st);
 	}
 	int rc;
-	if (invocation_flag(i, "--follow")) {
+	if (invocation_flag(i, "--follow"))
 		rc = follow(&c, i, body);
-	} else if (i->json) {
-		struct text t = { 0 };
-		st = client_list(c.client, body, job_text_between, &t, &i->report);
-		rc = st == ST_OK ? job_text_print(&t) : status_exit(st);
-		text_finish(&t);
-	} else {
-		st = client_request(c.client, MESSAGE_LIST, body, job_list_add, NULL, &list,
-		                    &i->report);
-		rc = status_exit(st);
-		if (st == ST_OK)
-			job_list_print(&list, i->color, stdout);
-	}
-	job_list_finish(&list);
+	else
+		rc = i->json ? list_json(&c, i, body) : list_table(&c, i, body);
 	connection_close(&c);
 	return rc;
 }

@@ -64,9 +64,10 @@ int print_end(struct print *p)
 	put_out(p);
 	const bool failed = p->failed | (fflush(stdout) != 0);
 	print_forget(p);
-	return failed ? status_exit(report_error(&terminal, ST_RESOURCE,
-	                                         "cannot write to standard output"))
-	              : 0;
+	/* that standard output takes nothing is said at the end of the verb */
+	if (failed && !ferror(stdout))
+		report_error(&terminal, ST_RESOURCE, "memory ran out");
+	return failed ? status_exit(ST_RESOURCE) : 0;
 }
 
 void print_forget(struct print *p)

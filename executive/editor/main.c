@@ -1,7 +1,9 @@
 /* main.c - the program batten-editor: one mode a way to start it; files alone open the window. */
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "file.h"
 #include "modes.h"
 
 static const struct mode {
@@ -21,6 +23,8 @@ enum { N_MODES = sizeof modes / sizeof *modes };
 
 int main(int argc, char **argv)
 {
+	file_hold_standard();
+	signal(SIGXFSZ, SIG_IGN); /* a file grown too large is a write that fails */
 	for (int k = 0; k < N_MODES; k++)
 		if (argc > 1 && !strcmp(argv[1], modes[k].name))
 			return modes[k].run(argc - 2, argv + 2);

@@ -332,18 +332,15 @@ enum status client_request(struct client *c, enum message_type type, json_t *bod
 }
 
 /* The record in {"id":ID,"job":RECORD} as it is, where it is one with all its fields. */
-static bool record_copy(const char *text, size_t n, struct text *out)
+static bool record_whole(const char *text, size_t n, const char **record, size_t *length)
 {
 	static const char key[] = "\"job\":", full[] = "\"color\":\"#";
 	const char *begin = memmem(text, n < 64 ? n : 64, key, sizeof key - 1);
 	if (!begin || n < sizeof key || text[n - 1] != '}')
 		return false;
-	begin += sizeof key - 1;
-	size_t length = (size_t)(text + n - 1 - begin);
-	if (!memmem(begin, length, full, sizeof full - 1))
-		return false;
-	text_add_bytes(out, begin, length);
-	return true;
+	*record = begin + sizeof key - 1;
+	*length = (size_t)(text + n - 1 - *record);
+	return memmem(*record, *length, full, sizeof full - 1);
 }
 
 /* One without: as it lies in the ledger, or from a service of before. */
@@ -359,20 +356,32 @@ static bool record_write(const char *text, size_t n, struct text *out)
 	return good;
 }
 
-/* What is there of the list; what is missing is waited for. */
-static enum status list_on(struct client *c, const char *between, struct text *out, bool *end,
-                           const struct report *r)
-{
-	const char *text;
-	struct message m;
-	size_t n;
+struct listing {
+	client_record *on_record;
+	void *data;
+	struct text made; /* a record that came without all its fields */
+};
 
-	while (message_reader_text(&c->reader, MESSAGE_JOB, &text, &n)) {
-		if (out->n)
-			text_add(out, between);
-		if (!record_copy(text, n, out) && !record_write(text, n, out))
-			return report_error(r, ST_INTERNAL, "the service sent a job that is none");
+/* What is there of the list; what is missing is waited for. */
+static enum status list_on(struct client *c, struct listing *l, bool *end, const struct report *r)
+{
+	const char *text, *record;
+	struct message m;
+	size_t n, length;
+
+	while (!*end && message_reader_text(&c->reader, MESSAGE_JOB, &text, &n)) {
+		if (!record_whole(text, n, &record, &length)) {
+			text_reset(&l->made);
+			if (!record_write(text, n, &l->made) || l->made.failed)
+				return report_error(r, ST_INTERNAL,
+				                    "the service sent a job that is none");
+			record = l->made.s;
+			length = l->made.n;
+		}
+		*end = !l->on_record(l->data, record, length);
 	}
+	if (*end)
+		return ST_OK;
 	int got = message_reader_next(&c->reader, &m);
 	if (got < 0)
 		return report_error(r, ST_INTERNAL, "the service sent no packet: %s",
@@ -385,15 +394,17 @@ static enum status list_on(struct client *c, const char *between, struct text *o
 	return st;
 }
 
-enum status client_list(struct client *c, json_t *body, const char *between, struct text *out,
+enum status client_list(struct client *c, json_t *body, client_record *on_record, void *data,
                         const struct report *r)
 {
+	struct listing l = { .on_record = on_record, .data = data };
 	bool end = false;
 
 	json_object_set_new(body, "full", json_true());
 	enum status st = client_send(c, MESSAGE_LIST, body, r);
 	while (st == ST_OK && !end)
-		st = list_on(c, between, out, &end, r);
+		st = list_on(c, &l, &end, r);
+	text_finish(&l.made);
 	return st;
 }
 

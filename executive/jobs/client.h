@@ -23,12 +23,14 @@ void client_close(struct client *c); /* NULL is fine */
  * gone. *ran: there was one. Errors: ST_RESOURCE (it does not end), ST_INPUT (not ours). */
 enum status client_shutdown(const struct project *p, bool *ran, const struct report *r);
 
+/* A record as `jobs --json` shows it; text is borrowed for the call. Return false to stop listening. */
+typedef bool client_record(void *data, const char *text, size_t n);
+
 /*
- * LIST, its answer as text: the records as `jobs --json` shows them, put into *out, which is
- * empty, with `between` between them. Nearly nothing is taken apart, so it is several times quicker than
- * client_request. body is stolen. Errors: as client_request.
+ * LIST, its answer as text, record by record as they come. Nearly nothing is taken apart, so it is several
+ * times quicker than client_request. body is stolen. Errors: as client_request.
  */
-enum status client_list(struct client *c, json_t *body, const char *between, struct text *out,
+enum status client_list(struct client *c, json_t *body, client_record *on_record, void *data,
                         const struct report *r);
 
 /* A JOB packet's record; s is borrowed for the call. Return false to stop listening. */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Deeper, longer and larger values are none of ours, and some readers of JSON refuse them. */
-enum { DEPTH_MAX = 32, DIGITS_MAX = 18, EXPONENT_MAX = 2 };
+enum { DEPTH_MAX = 32, DIGITS_MAX = 18, FRACTION_MAX = 400, EXPONENT_MAX = 3 };
 /* of the record, of its lists, of what stands in those */
 enum { DEPTH_RECORD = 1, DEPTH_LIST = 2, DEPTH_ELEMENT = 3 };
 /* what that must be */
@@ -94,31 +94,32 @@ static bool string(struct scan *s, struct span *out)
 	return next_is(s, '"');
 }
 
-/* 0: too many as well. */
-static size_t digits(struct scan *s)
+/* How many; 0: more than max as well. */
+static size_t digits(struct scan *s, size_t max)
 {
 	const char *from = s->p;
 	while (s->p < s->end && *s->p >= '0' && *s->p <= '9')
 		s->p++;
 	const size_t n = (size_t)(s->p - from);
-	return n <= DIGITS_MAX ? n : 0;
+	return n <= max ? n : 0;
 }
 
 static bool number(struct scan *s)
 {
 	next_is(s, '-');
 	const char *first = s->p;
-	size_t n = digits(s);
+	const size_t n = digits(s, DIGITS_MAX);
 	if (!n || (*first == '0' && n > 1))
 		return false;
-	if (next_is(s, '.') && !digits(s))
+	if (next_is(s, '.') && !digits(s, FRACTION_MAX))
 		return false;
 	if (!next_is(s, 'e') && !next_is(s, 'E'))
 		return true;
-	if (!next_is(s, '-'))
-		next_is(s, '+');
-	n = digits(s);
-	return n && n <= EXPONENT_MAX;
+	/* what is too small is read as 0, what is too large not at all */
+	if (next_is(s, '-'))
+		return digits(s, EXPONENT_MAX);
+	next_is(s, '+');
+	return digits(s, EXPONENT_MAX - 1);
 }
 
 static bool word(struct scan *s, const char *text)
@@ -140,7 +141,7 @@ static bool list(struct scan *s, int depth)
 	do {
 		const bool opens = s->p < s->end && *s->p == '{';
 		if ((wanted == ELEMENTS_FILES && !opens) ||
-		    (wanted == ELEMENTS_IDS ? !digits(s) : !value(s, depth)))
+		    (wanted == ELEMENTS_IDS ? !digits(s, DIGITS_MAX) : !value(s, depth)))
 			return false;
 	} while (next_is(s, ','));
 	return next_is(s, ']');

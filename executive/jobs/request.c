@@ -88,10 +88,17 @@ static bool is_any(enum job_state s)
 
 /* Requests */
 
-/* Of the jobs named, or selected. */
+/* Of the jobs named, or selected; but for WATCH they are not wanted any more. */
 static void list_begin(struct request *q)
 {
 	free(q->list);
+	if (q->type != MESSAGE_WATCH) {
+		q->list = q->jobs;
+		q->n_list = q->n;
+		q->at_list = q->n = q->at = 0;
+		q->jobs = NULL;
+		return;
+	}
 	q->list = calloc((size_t)q->n + 1, sizeof *q->list);
 	q->n_list = q->list ? q->n : 0;
 	q->at_list = 0;
@@ -104,7 +111,7 @@ static void list_begin(struct request *q)
 /* As much as the client has room for; true when all is said. */
 static bool list_send(struct request *q)
 {
-	while (q->at_list < q->n_list && session_backlog(q->session) < BACKLOG_FULL)
+	while (q->at_list < q->n_list && session_backlog(q->session) < LIST_AHEAD)
 		session_send_record(q->session, q->id, q->list[q->at_list++], q->full);
 	return q->at_list == q->n_list;
 }
@@ -317,7 +324,7 @@ static void prune_go_on(struct request *q)
 {
 	struct report r = request_report(q);
 	bool good = true;
-	while (good && q->at_list < q->n_list && session_backlog(q->session) < BACKLOG_FULL)
+	while (good && q->at_list < q->n_list && session_backlog(q->session) < LIST_AHEAD)
 		good = prune_page(q, &r);
 	if (good && q->at_list < q->n_list)
 		return;

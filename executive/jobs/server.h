@@ -15,6 +15,9 @@
  * is let go */
 enum { BACKLOG_FULL = 1 << 20, BACKLOG_MAX = 256 << 20 };
 
+/* Of a list no more is made ready than this: a hundred clients may want one at once. */
+enum { LIST_AHEAD = 96 << 10 };
+
 struct server {
 	uv_loop_t loop;
 	const struct project *project; /* borrowed */
@@ -34,6 +37,7 @@ struct server {
 	double idle_s;
 	int lock;
 	bool leaving, closing;
+	bool stretched; /* memory was wanted for lists, and may be given back */
 };
 
 struct session {

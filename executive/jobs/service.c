@@ -422,7 +422,7 @@ static enum status server_run(struct server *s, const struct settings *settings,
 enum status service_run(const struct project *p, const struct settings *settings,
                         const struct report *r)
 {
-	int ready = ready_take();
+	int ready = ready_take(), error;
 	struct server *s = calloc(1, sizeof *s);
 	if (!s)
 		return report_error(r, ST_RESOURCE, "cannot serve: out of memory");
@@ -436,8 +436,9 @@ enum status service_run(const struct project *p, const struct settings *settings
 		if (chdir(p->folder))
 			st = report_error(r, ST_RESOURCE, "cannot enter '%s': %s", p->folder,
 			                  strerror(errno));
-		else if (uv_loop_init(&s->loop))
-			st = report_error(r, ST_RESOURCE, "cannot make an event loop");
+		else if ((error = uv_loop_init(&s->loop)))
+			st = report_error(r, ST_RESOURCE, "cannot make an event loop: %s",
+			                  uv_strerror(error));
 		if (st == ST_OK) {
 			st = server_run(s, settings, &ready, r);
 			uv_loop_close(&s->loop);

@@ -9,18 +9,21 @@
 #include "json.h"
 #include "server.h"
 
-enum { READ_BYTES = 65536, TRIM_BYTES = 1 << 20 };
+enum { READ_BYTES = 65536, TRIM_BYTES = 1 << 16 };
 
 static void on_closed(uv_handle_t *h)
 {
 	struct session *c = h->data;
-	bool large = c->out.cap + c->flying.cap > TRIM_BYTES;
+	struct server *s = c->server;
+	s->stretched |= c->out.cap + c->flying.cap > TRIM_BYTES;
 	message_reader_finish(&c->reader);
 	text_finish(&c->out);
 	text_finish(&c->flying);
 	free(c);
-	if (large)
+	if (s->stretched && !s->sessions) {
 		malloc_trim(0); /* or the service stays as large as it once was */
+		s->stretched = false;
+	}
 }
 
 void session_close(struct session *c)

@@ -304,3 +304,12 @@ enum status folder_make(const char *path, unsigned mode, const struct report *r)
 	free(copy);
 	return there ? ST_OK : fail(r, "make folder", path, ENOTDIR);
 }
+
+void file_hold_standard(void)
+{
+	/* the wrong way round: reading or writing fails, as it does where they are closed */
+	for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+		if (fcntl(fd, F_GETFD) < 0 &&
+		    open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+			return;
+}

@@ -56,6 +56,11 @@ bool file_stamp(const char *path, int64_t stamp[3]);
 /* The mode bits that new files of this process are without. Thread: any. */
 unsigned file_mask(void);
 
+/* For the beginning of a program: where standard input, output or error are closed, something that gives and
+ * takes nothing stands in for them. Else a file that is opened gets their number, and what is said
+ * goes into it. */
+void file_hold_standard(void);
+
 /* Make a folder and those above it that are missing; mode as for mkdir. */
 enum status folder_make(const char *path, unsigned mode, const struct report *r);
 

@@ -2,6 +2,7 @@
 import json
 import os
 import sqlite3
+import subprocess
 import time
 
 import end
@@ -99,6 +100,23 @@ def test_prune_forgets_all_of_it_and_nothing_else(project):
     project.run("batten", "release", "--all")
     project.run("batten", "wait", waiting)
     assert project.run("batten", "prune").stdout == "1 ended jobs forgotten\n"
+
+
+def test_a_long_list_comes_as_it_is_read(project):
+    """Neither end holds all of it: when the service dies half way, the first half has been printed."""
+    make_past(project)
+    project.run("batten", "jobs")
+    lister = project.start("batten", "jobs", "--all", "--json", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    first = [lister.stdout.readline() for _ in range(3)]
+    end.kill(project.service_pid())
+    rest, said = lister.communicate(timeout=end.GUARD_S)
+    assert lister.returncode == 1 and "the service went away" in said
+    assert first[0] == '{"version":1,"jobs":[\n' and [json.loads(line[:-2])["id"] for line in first[1:]] == [1, 2]
+    assert rest.count("\n") < PAST / 2
+    # what fails before much is there prints nothing
+    for words in (["--json"], []):
+        done = project.run("batten", "jobs", "1", "2", "30000", *words, status=1)
+        assert done.stdout == "" and "there is no job 30000" in done.stderr
 
 
 def test_a_damaged_record_costs_one_job(project):

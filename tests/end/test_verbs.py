@@ -104,4 +104,45 @@ def test_eval_takes_blanks_and_commas(project):
     project.run("batten", "eval", sphere, "-", stdin="1\n", status=2)
 
 
+def shell(project, script, *words):
+    """The words as "$@" of a bash script."""
+    return subprocess.run(["bash", "-c", script, "bash", *project.command(("batten", *words))], cwd=project.folder,
+                          env=project.environment, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          timeout=end.GUARD_S)
+
+
+def test_what_cannot_be_printed_is_said_once(project):
+    teapot = os.path.join(end.EXAMPLES, "teapot.igs")
+    for words in (["jobs"], ["jobs", "--json"], ["info", teapot], ["info", teapot, "--json"], ["workers"],
+                  ["eval", teapot + "#1", "0.5", "0.5", "--json"], ["config", "--json"], ["--help"], ["--version"],
+                  ["jobs", "--help"], ["--man", "jobs"], ["prune", "--json"]):
+        for script in ('"$@" >&-', '"$@" >/dev/full'):
+            done = shell(project, script, *words)
+            assert done.returncode == 1, (words, done)
+            assert done.stderr.count("\n") == 1 and "cannot write to standard output" in done.stderr, (words, done)
+
+
+def test_nothing_that_is_said_goes_into_a_file(project):
+    """With standard streams closed no file of ours gets their numbers."""
+    teapot = os.path.join(end.EXAMPLES, "teapot.igs")
+    project.run("batten", "import", teapot, "--into", "whole")
+    sphere = os.path.join(end.EXAMPLES, "sphere.igs") + "#1"
+    for script in ('"$@" 2>&-', '"$@" <&- 2>&-', '"$@" <&- >&- 2>&-'):
+        assert shell(project, script, "import", teapot, "--into", "closed").returncode == (1 if ">&- 2" in script else 0)
+        for name in os.listdir(project.path("whole")):
+            with open(project.path("whole", name)) as a, open(project.path("closed", name)) as b:
+                assert a.read() == b.read(), (script, name)
+        done = shell(project, script, "run", "curvature", sphere, "--grid", "20x20", "-o", "c", "--force")
+        assert done.returncode == (1 if ">&- 2" in script else 0), done
+        assert project.run("batten-curvature", sphere, "--grid", "20x20", "-o", "c").stderr.count("up to date")
+
+
+def test_a_limit_of_files_sizes_is_a_sentence(project):
+    teapot = os.path.join(end.EXAMPLES, "teapot.igs")
+    for words in (["import", teapot, "--into", "all"], ["export", teapot + "#1", "--to", "one.igs"]):
+        done = shell(project, 'ulimit -f 0; "$@"', *words)
+        assert done.returncode == 1 and "cannot write" in done.stderr, done
+    assert not os.path.exists(project.path("one.igs")) and not os.listdir(project.path("all"))
+
+
 end.main()

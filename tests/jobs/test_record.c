@@ -64,6 +64,29 @@ static void what_is_written_is_sound(void **state)
 	json_decref(o);
 }
 
+/* No number that a worker may state makes its record one that must be taken apart. */
+static void any_number_is_sound(void **state)
+{
+	static const double some[] = {
+		0,      -0.0,   1,    0.1,    1.0 / 3,   0.0010666941017323343,
+		1e-7,   1e15,   1e16, 1e22,   -12.5e-30, 123456789012345678.0,
+		1e-300, 5e-324, 1e99, -1e-99, 2.5e17,    9007199254740993.0
+	};
+	(void)state;
+	for (size_t i = 0; i < sizeof some / sizeof *some; i++) {
+		struct Stats s;
+		struct text t = { 0 };
+		stats_init(&s);
+		s.id = 17;
+		s.state = JOB_FAILED;
+		s.wall_s = some[i];
+		stats_write_brief(&t, &s);
+		assert_true(record_is_sound(t.s, t.n, 17, "failed"));
+		text_finish(&t);
+		stats_finish(&s);
+	}
+}
+
 /* Every bit, every byte that is missing: what is taken for sound is read as that job. */
 static void no_damage_that_matters_is_overlooked(void **state)
 {
@@ -143,6 +166,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(what_is_written_is_sound),
+		cmocka_unit_test(any_number_is_sound),
 		cmocka_unit_test(no_damage_that_matters_is_overlooked),
 		cmocka_unit_test(what_others_refuse_is_not_sound),
 	};
