@@ -162,9 +162,10 @@ void knots_basis(int order, const double *knots, int s, double t, int d, double 
 
 int knots_multiplicity(int order, int n, const double *knots, double t)
 {
+	const int last = n + order, i = upper_index(knots, -1, last, t, false);
 	int count = 0;
-	for (int i = 0; i < n + order && knots[i] <= t; i++)
-		count += knots[i] == t;
+	while (i + count < last && knots[i + count] == t)
+		count++;
 	return count;
 }
 

@@ -67,6 +67,12 @@ static void spans_table(void **state)
 	assert_int_equal(knots_domain_span(3, 7, k, domain, 0), 3);
 	assert_int_equal(knots_multiplicity(3, 7, k, 3), 2);
 	assert_int_equal(knots_multiplicity(3, 7, k, 3.5), 0);
+	for (double t = -1; t <= 7; t += 0.25) {
+		int count = 0;
+		for (int i = 0; i < 10; i++)
+			count += k[i] == t;
+		assert_int_equal(knots_multiplicity(3, 7, k, t), count);
+	}
 	assert_int_equal(knots_breaks(3, 7, k, 1, 5, breaks), 5);
 	assert_true(breaks[0] == 1 && breaks[2] == 3 && breaks[3] == 4 && breaks[4] == 5);
 	assert_int_equal(knots_breaks(3, 7, k, 2.5, 3, breaks), 2);
