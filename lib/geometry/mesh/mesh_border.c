@@ -8,6 +8,9 @@
  * on the wrong side of each other do. */
 enum { ROUNDS = 14, SIDE_ROUNDS = 5, FLAWS_MAX = 10000 };
 
+/* So many are added in their order without delay. */
+enum { FEW_NODES = 2048 };
+
 /* A piece between two nodes, as vertices of the net. */
 struct piece {
 	int from, to, edge, node, loop;
@@ -52,35 +55,58 @@ static void snap(const struct mesh_face *f, const double in[2], double out[2])
 	}
 }
 
-/* Vertices of the net for all nodes of a loop; the pieces between them. */
+/* The pieces of a loop; they have no vertices yet. */
 static enum status add_loop(struct border *x, int loop)
 {
-	struct mesh_face *f = x->f;
-	const struct mesh_edge *edges = f->b->edges;
-	const int first = x->n;
+	const struct mesh_edge *edges = x->f->b->edges;
 	enum status st = ST_OK;
-	for (int k = f->b->loops[loop].first; k >= 0 && st == ST_OK; k = edges[k].next)
+	for (int k = x->f->b->loops[loop].first; k >= 0 && st == ST_OK; k = edges[k].next)
 		for (int i = 0; i + 1 < edges[k].n_nodes && st == ST_OK; i++) {
-			const struct mesh_node *node = &edges[k].nodes[i];
-			const int before = f->net.n;
-			int32_t at[2];
-			double uv[2];
-			int vertex;
-			snap(f, node->uv, uv);
-			mesh_face_at(f, uv, at);
-			st = net_add(&f->net, at[0], at[1], &vertex);
-			if (st == ST_OK && vertex >= before)
-				st = mesh_face_place(f, vertex, uv, node->point);
-			else if (st == ST_OK)
-				mesh_point_unite(f->b, f->places[vertex].point, node->point);
+			st = mesh_grow((void **)&x->pieces, &x->room, x->n + 1, sizeof *x->pieces);
 			if (st == ST_OK)
-				st = mesh_grow((void **)&x->pieces, &x->room, x->n + 1,
-				               sizeof *x->pieces);
-			if (st == ST_OK)
-				x->pieces[x->n++] = (struct piece){ vertex, -1, k, i, loop };
+				x->pieces[x->n++] = (struct piece){ -1, -1, k, i, loop };
 		}
-	for (int i = first; i < x->n; i++)
-		x->pieces[i].to = x->pieces[i + 1 < x->n ? i + 1 : first].from;
+	return st;
+}
+
+/* The vertex of the net where a piece begins. */
+static enum status add_vertex(struct mesh_face *f, struct piece *p)
+{
+	const struct mesh_node *node = &f->b->edges[p->edge].nodes[p->node];
+	const int before = f->net.n;
+	int32_t at[2];
+	double uv[2];
+	snap(f, node->uv, uv);
+	mesh_face_at(f, uv, at);
+	enum status st = net_add(&f->net, at[0], at[1], &p->from);
+	if (st == ST_OK && p->from >= before)
+		return mesh_face_place(f, p->from, uv, node->point);
+	if (st == ST_OK)
+		mesh_point_unite(f->b, f->places[p->from].point, node->point);
+	return st;
+}
+
+/*
+ * Every piece between two vertices. One after the other along a curve, each may change triangles as far
+ * as the curve's other side, n^2 in all: of many nodes first some far from each other are taken, then
+ * each time those half way between.
+ */
+static enum status add_vertices(struct border *x)
+{
+	enum status st = ST_OK;
+	int step = 1;
+	while (x->n / step > FEW_NODES)
+		step *= 2;
+	for (int i = 0; i < x->n && st == ST_OK; i += step)
+		st = add_vertex(x->f, &x->pieces[i]);
+	for (; step > 1; step /= 2)
+		for (int i = step / 2; i < x->n && st == ST_OK; i += step)
+			st = add_vertex(x->f, &x->pieces[i]);
+	for (int i = 0, first = 0; i < x->n; i++) {
+		const bool last = i + 1 == x->n || x->pieces[i + 1].loop != x->pieces[i].loop;
+		x->pieces[i].to = x->pieces[last ? first : i + 1].from;
+		first = last ? i + 1 : first;
+	}
 	return st;
 }
 
@@ -174,6 +200,8 @@ enum status mesh_face_border(struct mesh_face *f, struct mesh_flaws *flaws)
 	flaws->crossed = flaws->wrong_side = false;
 	for (int k = loops[0]; k < loops[1] && st == ST_OK; k++)
 		st = add_loop(&x, k);
+	if (st == ST_OK)
+		st = add_vertices(&x);
 	for (int i = 0; i < x.n && st == ST_OK; i++)
 		st = fix_piece(&x, &x.pieces[i], flaws);
 	if (st == ST_OK)
