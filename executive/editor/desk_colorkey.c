@@ -13,6 +13,8 @@ static const double DOUBLE_CLICK_S = 0.4;
 
 static const struct overlay *shown_map(const struct desk *d)
 {
+	if (desk_image(d)) /* it covers the map */
+		return NULL;
 	for (int i = world_overlays(d->world) - 1; i >= 0; i--)
 		if (world_overlay(d->world, i)->kind == OVERLAY_MAP)
 			return world_overlay(d->world, i);
@@ -44,7 +46,7 @@ static void paint_no_values(struct desk *d, cairo_t *cr, const struct box_px *vi
 	const struct Ful *f = world_current(d->world, false);
 	struct key_model m = { .title = "", .note = "", .unit = "" };
 
-	if (!f || f->display.look != LOOK_MAP || !f->display.on)
+	if (!f || f->display.look != LOOK_MAP || !f->display.on || desk_image(d))
 		return;
 	m.symbol = symbol[d->quantity];
 	m.button = "CALCULATE";

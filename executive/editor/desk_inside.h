@@ -280,7 +280,9 @@ void desk_job_open(struct desk *d, const struct Stats *s);
 void desk_job_show(struct desk *d, int64_t id); /* in the list, with its log */
 bool desk_picked(const struct desk *d, int64_t id);
 void desk_duration(double seconds, char out[96]); /* "1:24", "2 h 10" */
-void desk_results(struct desk *d);                /* show what has come */
+void desk_results(struct desk *d);
+/* killed: those that have just been told to end */
+void desk_jobs_settle(struct desk *d, const int64_t *killed, int n_killed); /* show what has come */
 int desk_unended(const struct desk *d);
 
 /* desk_tiles.c */
@@ -339,6 +341,7 @@ void desk_fill_help(struct desk *d);
 void desk_fill_list(struct desk *d);
 void desk_paint_over(struct desk *d, cairo_t *cr);
 void desk_paint_probe(struct desk *d, cairo_t *cr);
+const struct overlay *desk_image(const struct desk *d); /* NULL: things are in the view */
 void desk_paint_keys(struct desk *d, cairo_t *cr, struct scraps *s, double low);
 bool desk_key_press(struct desk *d, const struct hit *h); /* an end of a color key */
 void desk_key_move(struct desk *d);

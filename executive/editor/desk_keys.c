@@ -168,6 +168,11 @@ void desk_command(struct desk *d, uint32_t c)
 	case 'T':
 		desk_split_next(d);
 		return;
+	case 'i':
+	case 'I':
+		if (!desk_busy(d))
+			desk_run_code(d, "V189", NULL, NULL);
+		return;
 	case 'z':
 	case 'Z':
 		undo(d, c == 'Z');

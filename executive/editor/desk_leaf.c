@@ -178,7 +178,10 @@ void desk_journal(struct desk *d, const char *code, const char *const *pairs)
 		name[given.n] = pairs[2 * given.n];
 		value[given.n] = pairs[2 * given.n + 1];
 	}
-	if (journal_write(&a, routine_find(code), &given) != ST_OK)
+	const struct routine *t = routine_find(code);
+	const enum status st = t->run == routine_find("V165")->run ? journal_remark(&a, t, &given)
+	                                                           : journal_write(&a, t, &given);
+	if (st != ST_OK)
 		desk_say(d, REPORT_WARNING, "%s", store.error);
 }
 
@@ -218,6 +221,7 @@ void desk_errand_over(struct desk *d)
 		return;
 	const struct routine *t = errand_routine(e);
 	enum status st = errand_status(e);
+	const bool started = errand_jobs(e) > 0;
 	d->errand = NULL;
 	desk_world_changed(d);
 	if (st == ST_OK) {
@@ -237,6 +241,8 @@ void desk_errand_over(struct desk *d)
 		desk_views_fit(d, NULL);
 	desk_dirty(d, DESK_ALL);
 	desk_results(d);
+	if (started)
+		desk_jobs_settle(d, NULL, 0);
 	desk_open_next(d);
 }
 

@@ -15,6 +15,8 @@ static void ask_all(struct desk *d, enum message_type type)
 			ids[n++] = d->shelf.jobs[i].id;
 	if (n && d->ports.ask_jobs)
 		d->ports.ask_jobs(d->ports.data, type, ids, n);
+	if (type == MESSAGE_KILL) /* nobody will be there to hear of their end */
+		desk_jobs_settle(d, ids, n);
 }
 
 static int count_unsaved(const struct desk *d, const char **name)
@@ -33,7 +35,8 @@ static int count_unsaved(const struct desk *d, const char **name)
 
 static void leave(struct desk *d)
 {
-	const char *const pairs[] = { "unsaved", "keep", "jobs", d->leaving_jobs, NULL };
+	/* what became of the jobs stands in the lines that started them */
+	const char *const pairs[] = { "unsaved", "keep", "jobs", "leave", NULL };
 
 	if (!strcmp(d->leaving_jobs, "suspend"))
 		ask_all(d, MESSAGE_SUSPEND);

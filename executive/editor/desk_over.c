@@ -26,34 +26,43 @@ static const char *in_capital(struct scraps *s, const char *text)
 	return out;
 }
 
+/* The image that is in the view. */
+const struct overlay *desk_image(const struct desk *d)
+{
+	for (int i = world_overlays(d->world) - 1; i >= 0; i--)
+		if (world_overlay(d->world, i)->kind == OVERLAY_IMAGE &&
+		    !world_sight(d->world)->no_image)
+			return world_overlay(d->world, i);
+	return NULL;
+}
+
 /* What the view shows, and where it comes from. */
 static const char *heading(struct desk *d, struct scraps *s, const char **note)
 {
 	const struct Ful *f = world_current(d->world, false);
-	int lines = 0, images = 0, maps = 0;
-	const struct overlay *map = shown_map(d), *image = NULL, *line = NULL;
+	int lines = 0, maps = 0, shown = 0;
+	const struct overlay *map = shown_map(d), *image = desk_image(d), *line = NULL;
 
 	*note = "";
 	for (int i = 0; i < world_overlays(d->world); i++) {
 		const struct overlay *o = world_overlay(d->world, i);
 		lines += o->kind == OVERLAY_LINES;
-		images += o->kind == OVERLAY_IMAGE;
 		maps += o->kind == OVERLAY_MAP;
-		if (o->kind == OVERLAY_IMAGE)
-			image = o;
 		if (o->kind == OVERLAY_LINES)
 			line = o;
 	}
-	const struct overlay *of = map ? map : image;
-	if (map && maps > 1)
+	const struct overlay *of = image ? image : map;
+	if (of == map && maps > 1)
 		*note = scraps_print(s, "of %d surfaces", maps);
 	else if (of && of->file)
 		*note = of->job ? scraps_print(s, "arriving from job %lld", (long long)of->job)
 		                : scraps_print(s, "%s", path_file_name(of->file));
+	if (image) {
+		*note = scraps_print(s, "%s; I shows the things again", *note);
+		return "Image";
+	}
 	if (map)
 		return in_capital(s, quantity_table[map->quantity].title);
-	if (images)
-		return "Image";
 	if (lines == 1 && line->job)
 		*note = scraps_print(s, "lines arriving from job %lld", (long long)line->job);
 	else if (lines == 1 && line->file)
@@ -62,6 +71,10 @@ static const char *heading(struct desk *d, struct scraps *s, const char **note)
 		*note = scraps_print(s, "with the lines of %d results", lines);
 	if (!f)
 		f = world_current(d->world, true);
+	for (int i = 0; i < world_count(d->world); i++)
+		shown += world_at(d->world, i)->display.on;
+	if (!lines && shown > 1)
+		*note = scraps_print(s, "current of %d that are shown", shown);
 	return f ? f->name : "";
 }
 

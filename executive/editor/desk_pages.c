@@ -14,6 +14,7 @@ const struct key_row desk_key_table[] = {
 	{ "W  Ctrl W", "the World menu, and back", false },
 	{ "J  Ctrl J", "the jobs", false },
 	{ "T  Ctrl T", "two views: another side, the child, u and v; and back", false },
+	{ "I", "the image that is shown, or what it is of", false },
 	{ "S  A  K  R  O  L", "in the jobs: suspend, activate, kill, retry, open, log", false },
 	{ "F1", "help for the entry under the mouse, or of what is asked", false },
 	{ "?", "this sheet", false },

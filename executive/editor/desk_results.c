@@ -105,9 +105,31 @@ static void tell(struct desk *d, const struct Stats *s)
 		d->ports.bell(d->ports.data);
 }
 
+/* What jobs came to is said in the lines of the journal that started them, so that doing those again comes
+ * to the same. A line is written when its routine returns: its job may be over by then. */
+void desk_jobs_settle(struct desk *d, const int64_t *killed, int n_killed)
+{
+	struct job_end *ends = calloc((size_t)d->shelf.n + 1, sizeof *ends);
+	struct report_store store;
+	size_t n = 0;
+
+	report_store_init(&store);
+	for (int i = 0; ends && i < d->shelf.n; i++) {
+		const struct Stats *s = &d->shelf.jobs[i];
+		ends[n++] = (struct job_end){ s->id, job_state_table[s->state].over &&
+			                                     s->state != JOB_DONE };
+		for (int k = 0; k < n_killed; k++)
+			ends[n - 1].nothing |= killed[k] == s->id;
+	}
+	if (ends && journal_settle(d->house.project, ends, n, &store.report) != ST_OK)
+		desk_say(d, REPORT_WARNING, "%s", store.error);
+	free(ends);
+}
+
 /* Both lists go by rising id. */
 static void find_news(struct desk *d)
 {
+	bool ends = false;
 	int at = d->n_seen - 1, grown = d->shelf.n - d->n_seen;
 
 	if (d->shelf.n > d->seen_cap) {
@@ -124,10 +146,14 @@ static void find_news(struct desk *d)
 		enum job_state was = known ? d->seen[at].state : N_JOB_STATES;
 		at -= known;
 		d->seen[i] = (struct state_seen){ s->id, s->state };
+		ends |= was != s->state &&
+		        (job_state_table[s->state].over || (known && job_state_table[was].over));
 		if (was != s->state && d->caught_up)
 			tell(d, s);
 	}
 	d->n_seen = d->shelf.n;
+	if (ends)
+		desk_jobs_settle(d, NULL, 0);
 	d->caught_up |= d->link == LINK_UP;
 }
 

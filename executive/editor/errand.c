@@ -180,6 +180,11 @@ double errand_progress(struct errand *e, char what[128])
 	return fraction;
 }
 
+int errand_jobs(const struct errand *e)
+{
+	return e->act.n_jobs;
+}
+
 const struct routine *errand_routine(const struct errand *e)
 {
 	return e->routine;

@@ -33,6 +33,7 @@ void errand_stop(struct errand *e); /* it ends with ST_CANCELLED when it sees th
 double errand_progress(struct errand *e, char what[128]);
 
 /* Of one that is over. Borrowed. */
+int errand_jobs(const struct errand *e); /* when it is over: how many it queued */
 const struct routine *errand_routine(const struct errand *e);
 const struct arguments *errand_given(const struct errand *e);
 enum status errand_status(const struct errand *e);

@@ -98,11 +98,21 @@ static enum status write_down(const struct act *a, const struct routine *t,
                               const struct arguments *full, const struct arguments *given)
 {
 	const bool said = argument_text(given, "wait") != NULL;
+	const char *jobs = argument_text(full, "jobs");
+
+	if (t->run == world_jobs && jobs && strcmp(jobs, "all"))
+		return journal_remark(a, t, full);
 
 	for (int k = 0; k < full->n && !said; k++)
 		if (!strcmp(full->name[k], "wait"))
 			full->value[k] = "yes";
 	return journal_write(a, t, full);
+}
+
+/* What the journal of a session says of jobs that were killed there. */
+static bool is_killed(const char *name, const char *value)
+{
+	return !strcmp(name, "wait") && value && !strcmp(value, "killed");
 }
 
 /* The value of each row: given, or the default; rows that are left out are not in the list. */
@@ -121,7 +131,8 @@ static enum status fill_in(const struct routine *t, const struct argument_row *r
 			                    row->name, row->help);
 		if (!value)
 			continue;
-		st = argument_check(row, value, a->world, &a->report);
+		if (!is_killed(row->name, value))
+			st = argument_check(row, value, a->world, &a->report);
 		if (row->optional && !strcmp(value, "auto") && !auto_is_a_value(row))
 			continue;
 		full->name[full->n] = row->name;
@@ -183,7 +194,8 @@ static enum status call_with_rows(const struct routine *t, struct act *a,
 	if (st == ST_OK) {
 		a->routine = t;
 		a->n_jobs = 0;
-		a->wait = argument_yes(&full, "wait", a->wait);
+		a->killed = is_killed("wait", argument_text(&full, "wait"));
+		a->wait = a->killed || argument_yes(&full, "wait", a->wait);
 		st = t->run(a, &full);
 	}
 	if (st == ST_OK && a->journal)
@@ -206,6 +218,7 @@ enum status routine_call(const struct routine *t, struct act *a, const struct ar
 		st = call_with_rows(t, a, rows, given);
 	routine_rows_free(rows);
 	a->wait = wait;
+	a->killed = false;
 	return st;
 }
 

@@ -10,6 +10,8 @@
 #include "private.h"
 #include "text.h"
 
+enum { WAIT_ROOM = 4 }; /* for "killed" in the place of "yes" or "no" */
+
 static bool needs_quotes(const char *value)
 {
 	return !*value || *value == '"' || strpbrk(value, " \t\r\n");
@@ -46,18 +48,29 @@ static enum status append(const char *path, const struct text *t, const struct r
 	return st;
 }
 
-enum status journal_write(const struct act *a, const struct routine *t,
-                          const struct arguments *given)
+/* Behind the line, each with room for the sign of its end. */
+static void add_jobs(struct text *line, const struct act *a)
+{
+	if (!a->n_jobs || a->wait)
+		return;
+	text_addf(line, "%*s# job", WAIT_ROOM, "");
+	for (int k = 0; k < a->n_jobs; k++)
+		text_addf(line, " %lld ", (long long)a->jobs[k]);
+}
+
+static enum status write_line(const struct act *a, const struct routine *t,
+                              const struct arguments *given, const char *before)
 {
 	struct text line = { 0 };
 	char *path = path_join(a->project->hidden, "journal");
 	enum status st = path ? folder_make(a->project->hidden, 0777, &a->report) : ST_RESOURCE;
 
-	text_add(&line, t->code);
+	text_addf(&line, "%s%s", before, t->code);
 	for (int k = 0; k < given->n; k++) {
 		text_addf(&line, " %s=", given->name[k]);
 		add_value(&line, given->value[k]);
 	}
+	add_jobs(&line, a);
 	text_add(&line, "\n");
 	if (!path || line.failed)
 		st = act_memory(a);
@@ -66,4 +79,16 @@ enum status journal_write(const struct act *a, const struct routine *t,
 	text_finish(&line);
 	free(path);
 	return st;
+}
+
+enum status journal_write(const struct act *a, const struct routine *t,
+                          const struct arguments *given)
+{
+	return write_line(a, t, given, "");
+}
+
+enum status journal_remark(const struct act *a, const struct routine *t,
+                           const struct arguments *given)
+{
+	return write_line(a, t, given, "# ");
 }

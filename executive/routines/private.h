@@ -45,7 +45,9 @@ void work_done_finish(struct work_done *d);
 
 /* Surfaces of a scene: those shown, else the current one. *ids is fresh. 0 with a sentence: there are none. */
 int work_scene(struct act *a, int **ids);
-/* Name of results of these things, absolute, fresh: their own, or what is common to them. */
+/* Those that a leaf is for: the current one, or, where it is asked for, each that is shown; likewise. */
+int work_meant(struct act *a, const struct arguments *given, int **ids);
+/* Name of results of these things, absolute, fresh: their own, or one that no others have. */
 char *work_name(const struct act *a, const int *ids, int n, const char *suffix);
 /* What a result says it was made of, for these things. */
 enum status work_hash(const struct world *w, const int *ids, int n, char out[33]);

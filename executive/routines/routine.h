@@ -88,6 +88,7 @@ struct act {
 	bool wait; /* a job routine returns at the job's end (wait=yes) or when it is queued */
 	int64_t jobs[64]; /* set by a job routine: the ids it queued */
 	int n_jobs;
+	bool killed; /* a job routine starts none and goes on as if it had been killed (wait=killed) */
 	bool journal; /* what was done is written to the journal */
 	bool quit;    /* set by QUIT */
 	/* The view as a picture (EXPORT PICTURE); NULL: there is no view. */
@@ -156,8 +157,25 @@ void script_line_finish(struct script_line *l);
 /* Run a script line by line. Errors name the line. *failed counts lines (keep_going). */
 enum status script_run(struct act *a, const char *path, bool keep_going, int *failed);
 
-/* Append what was done to .batten/journal in script form, with all arguments and wait=. */
+/* Append what was done to .batten/journal in script form, with all arguments and wait=. Jobs that were
+ * not waited for are named behind it ("# job 4 5"), for journal_settle. */
 enum status journal_write(const struct act *a, const struct routine *t,
                           const struct arguments *given);
+/* As a remark: numbers of jobs mean nothing where it is done again. */
+enum status journal_remark(const struct act *a, const struct routine *t,
+                           const struct arguments *given);
+
+/* How a job ended, or that it goes on after all. */
+struct job_end {
+	int64_t id;
+	bool nothing; /* killed, failed or lost: it left no result */
+};
+/*
+ * Say so in the journal, in place: a line all of whose jobs came to nothing gets wait=killed, so that
+ * doing it again starts none; others wait=yes. `ends` is sorted here. No journal is fine.
+ * Errors: ST_INPUT, ST_RESOURCE.
+ */
+enum status journal_settle(const struct project *p, struct job_end *ends, size_t n,
+                           const struct report *r);
 
 #endif

@@ -69,6 +69,7 @@ const struct argument_row rows_surface_resolution[] = {
 	WHOLE("segments", "Segments", "0", 0, 100000, "segments of a line; 0: as exact as can be seen"),
 	END };
 const struct argument_row rows_lines[] = { YESNO("on", "Shown", "yes", "draw them or not"), END };
+const struct argument_row rows_image_on[] = { YESNO("on", "Shown", "yes", "draw images, or the things they are of"), END };
 const struct argument_row rows_on[] = { YESNO("on", "Shown", "yes", "draw the current surface or not"), END };
 
 #define FAMILY(n) "planes." n

@@ -13,9 +13,9 @@ extern const struct argument_row rows_background[], rows_bell[], rows_close[], r
         rows_insert_d[], rows_isophotes[], rows_jobs[], rows_light[], rows_lines[],
         rows_lines_file[], rows_linetype[], rows_map[], rows_map_file[], rows_material[],
         rows_mirror[], rows_move[], rows_on[], rows_open[], rows_perspective[], rows_split_view[],
-        rows_picture[], rows_plane_count[], rows_plane_distance[], rows_plane_start[],
-        rows_plane_tolerance[], rows_plane_tolerance_uv[], rows_porcupine[], rows_quit[],
-        rows_recall[], rows_reflection[], rows_rename[], rows_rotate[], rows_ruled[],
+        rows_image_on[], rows_picture[], rows_plane_count[], rows_plane_distance[],
+        rows_plane_start[], rows_plane_tolerance[], rows_plane_tolerance_uv[], rows_porcupine[],
+        rows_quit[], rows_recall[], rows_reflection[], rows_rename[], rows_rotate[], rows_ruled[],
         rows_samples[], rows_save_as[], rows_scale[], rows_segments[], rows_shade_file[],
         rows_split_d[], rows_surface[], rows_surface_edit[], rows_surface_resolution[],
         rows_trace_file[], rows_view[];
@@ -30,8 +30,8 @@ routine_run input_recall, input_iges;
 /* curves_show.c, surface_show.c; detail: an enum entity_kind */
 routine_run show_segments, show_color, show_line_type, show_view, show_samples, show_porcupine,
         show_on, show_off;
-routine_run surface_resolution, surface_on, surface_light, surface_image, surface_map_file,
-        surface_lines_file;
+routine_run surface_resolution, surface_on, image_on, surface_light, surface_image,
+        surface_map_file, surface_lines_file;
 /* surface_jobs.c; detail of surface_quantity: an enum quantity */
 routine_run job_image, job_curvature, job_lines, surface_quantity, surface_show_lines;
 /* contours.c; detail: 0 planes, 1 cylinders */

@@ -158,10 +158,10 @@ static const struct argument_row row_surfaces = {
 	.help = "of the current surface, or of each that is shown"
 };
 
-/* Leaves that have always been for the whole scene: contours and reflection lines. */
+/* Leaves that have always been for the whole scene: images, contours and reflection lines. */
 static bool is_for_scene(const struct routine *t)
 {
-	return t->run == job_contours || t->run == contours_show ||
+	return t->run == job_contours || t->run == job_image || t->run == contours_show ||
 	       (t->run == job_lines && !strcmp(t->worker, "reflection")) ||
 	       (t->run == surface_show_lines && t->detail);
 }
@@ -169,7 +169,7 @@ static bool is_for_scene(const struct routine *t)
 static bool takes_surfaces(const struct routine *t)
 {
 	return t->run == surface_quantity || t->run == surface_show_lines || t->run == job_lines ||
-	       is_for_scene(t);
+	       t->run == job_curvature || t->run == surface_resolution || is_for_scene(t);
 }
 
 /* Rows that leaves have beside those of the table or of their worker; *rows has grown by them. */
@@ -182,7 +182,9 @@ static enum status add_rows(struct argument_row **rows, const struct routine *t,
 
 	if (takes_surfaces(t)) { /* a script says what it means; a window shows what is there */
 		more[n_more] = row_surfaces;
-		more[n_more++].def = a->wait && !is_for_scene(t) ? "current" : "shown";
+		more[n_more++].def = t->run == surface_resolution || (a->wait && !is_for_scene(t))
+		                             ? "current"
+		                             : "shown";
 	}
 	if (t->worker || t->run == surface_quantity) {
 		more[n_more] = row_wait;

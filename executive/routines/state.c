@@ -97,6 +97,10 @@ static bool value_now(const struct routine *t, const char *name, const struct wo
 		strcpy(out, s->bell ? "no" : "yes"); /* it toggles */
 		return true;
 	}
+	if (t->run == image_on) {
+		strcpy(out, s->no_image ? "yes" : "no");
+		return true;
+	}
 	if (t->run == world_split) {
 		strcpy(out, view_split_words[s->split]);
 		return true;
@@ -109,7 +113,7 @@ static bool value_now(const struct routine *t, const char *name, const struct wo
 		return false;
 	if (t->run == show_segments || (t->run == surface_resolution && !strcmp(name, "segments")))
 		snprintf(out, NUMBER_SIZE, "%d", d->segments);
-	else if (t->run == surface_resolution)
+	else if (t->run == surface_resolution && !strncmp(name, "lines_", 6))
 		snprintf(out, NUMBER_SIZE, "%d",
 		         !strcmp(name, "lines_u") ? d->lines_u : d->lines_v);
 	else if (t->run == show_samples)
@@ -158,7 +162,7 @@ static void add_value(struct text *t, const struct argument_row *row, const char
 
 static bool is_switch(const struct routine *t)
 {
-	return t->run == world_bell || t->run == surface_on;
+	return t->run == world_bell || t->run == surface_on || t->run == image_on;
 }
 
 void routine_state(const struct routine *t, const struct world *w, char out[48])

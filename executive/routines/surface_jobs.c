@@ -7,24 +7,6 @@
 #include "private.h"
 #include "text.h"
 
-/* The surfaces that a leaf is for: the current one, or, where it does not ask, each that is shown. 0, with a sentence: none. */
-static int meant(struct act *a, const struct arguments *given, int **ids)
-{
-	const char *which = argument_text(given, "surfaces");
-	const struct Ful *f;
-
-	if (!which || !strcmp(which, "shown"))
-		return work_scene(a, ids);
-	f = act_current(a, false);
-	*ids = f ? malloc(sizeof **ids) : NULL;
-	if (f && !*ids)
-		act_memory(a);
-	if (!*ids)
-		return 0;
-	**ids = f->id;
-	return 1;
-}
-
 /* Those of each alone, where they take their place as one scene. */
 static void hide_isophotes(struct world *w, const int *ids, int n)
 {
@@ -43,7 +25,7 @@ static void hide_isophotes(struct world *w, const int *ids, int n)
 static enum status run_scene(struct act *a, const struct arguments *given, const char *suffix,
                              const struct overlay *like)
 {
-	int *ids, n = meant(a, given, &ids);
+	int *ids, n = work_meant(a, given, &ids);
 	json_t *parameters = work_parameters(given);
 	struct work_done done;
 	enum status st = n ? work_run(a, a->routine->worker, parameters, ids, n, suffix, &done)
@@ -63,6 +45,7 @@ static enum status run_scene(struct act *a, const struct arguments *given, const
 
 enum status job_image(struct act *a, const struct arguments *given)
 {
+	world_sight(a->world)->no_image = false;
 	return run_scene(a, given, NULL, &(struct overlay){ .kind = OVERLAY_IMAGE });
 }
 
@@ -103,16 +86,20 @@ enum status job_lines(struct act *a, const struct arguments *given)
 enum status job_curvature(struct act *a, const struct arguments *given)
 {
 	const struct overlay like = { .kind = OVERLAY_MAP, .scale = COLORMAP_AUTOMATIC };
-	const struct Ful *f = act_current(a, false);
 	json_t *parameters = work_parameters(given);
-	enum status st =
-	        f ? run_one(a, parameters, a->routine->worker, f->id, &like) : ST_PARAMETER;
+	int *ids, n = work_meant(a, given, &ids);
+	enum status st = n ? ST_OK : ST_PARAMETER;
 
+	for (int k = 0; k < n && st == ST_OK; k++) {
+		st = run_one(a, parameters, a->routine->worker, ids[k], &like);
+		if (st == ST_OK)
+			st = look_at_map(a, ids[k]);
+	}
+	if (st == ST_OK)
+		world_sight(a->world)->all_curvatures = true;
 	json_decref(parameters);
-	if (st != ST_OK)
-		return st;
-	world_sight(a->world)->all_curvatures = true;
-	return look_at_map(a, world_current(a->world, false)->id);
+	free(ids);
+	return st;
 }
 
 /* Range, scale and symmetry of the key. */
@@ -198,7 +185,7 @@ static enum status show_quantity(struct act *a, int id, const struct overlay *li
 enum status surface_quantity(struct act *a, const struct arguments *given)
 {
 	struct overlay o = { .kind = OVERLAY_MAP };
-	int *ids, n = meant(a, given, &ids);
+	int *ids, n = work_meant(a, given, &ids);
 	enum status st = n ? take_key(a, given, &o) : ST_PARAMETER;
 
 	for (int k = 0; k < n && st == ST_OK; k++)
@@ -291,7 +278,7 @@ static enum status show_isophotes(struct act *a, const struct arguments *given, 
 enum status surface_show_lines(struct act *a, const struct arguments *given)
 {
 	const bool reflection = a->routine->detail;
-	int *ids, n = meant(a, given, &ids);
+	int *ids, n = work_meant(a, given, &ids);
 	enum status st = n ? ST_OK : ST_PARAMETER;
 
 	if (n && reflection)
@@ -305,7 +292,7 @@ enum status surface_show_lines(struct act *a, const struct arguments *given)
 enum status contours_show(struct act *a, const struct arguments *given)
 {
 	const bool cylinders = a->routine->detail;
-	int *ids, n = meant(a, given, &ids);
+	int *ids, n = work_meant(a, given, &ids);
 
 	enum status st = show_result(a, given, ids, n, cylinders ? ".cylinder.contour" : ".contour",
 	                             "contours", cylinders ? "V170" : "V168");

@@ -8,15 +8,18 @@
 
 enum status surface_resolution(struct act *a, const struct arguments *given)
 {
-	const struct Ful *f = act_current(a, false);
+	int *ids, n = work_meant(a, given, &ids);
+	enum status st = n ? ST_OK : ST_PARAMETER;
 
-	if (!f)
-		return ST_PARAMETER;
-	struct display d = f->display;
-	d.lines_u = (int)argument_number(given, "lines_u", d.lines_u);
-	d.lines_v = (int)argument_number(given, "lines_v", d.lines_v);
-	d.segments = (int)argument_number(given, "segments", d.segments);
-	return world_set_display(a->world, f->id, &d);
+	for (int k = 0; k < n && st == ST_OK; k++) {
+		struct display d = world_by_id(a->world, ids[k])->display;
+		d.lines_u = (int)argument_number(given, "lines_u", d.lines_u);
+		d.lines_v = (int)argument_number(given, "lines_v", d.lines_v);
+		d.segments = (int)argument_number(given, "segments", d.segments);
+		st = world_set_display(a->world, ids[k], &d);
+	}
+	free(ids);
+	return st;
 }
 
 enum status surface_on(struct act *a, const struct arguments *given)
@@ -28,6 +31,13 @@ enum status surface_on(struct act *a, const struct arguments *given)
 	struct display d = f->display;
 	d.on = argument_yes(given, "on", true);
 	return world_set_display(a->world, f->id, &d);
+}
+
+enum status image_on(struct act *a, const struct arguments *given)
+{
+	world_sight(a->world)->no_image = !argument_yes(given, "on", true);
+	world_touch(a->world);
+	return ST_OK;
 }
 
 enum status surface_light(struct act *a, const struct arguments *given)
@@ -87,6 +97,8 @@ enum status surface_image(struct act *a, const struct arguments *given)
 	char *path;
 	enum status st = find_image(a, argument_text(given, "file"), "R", &path);
 
+	if (st == ST_OK)
+		world_sight(a->world)->no_image = false;
 	return st == ST_OK ? show_file(a, &(struct overlay){ .kind = OVERLAY_IMAGE }, path) : st;
 }
 
@@ -111,6 +123,19 @@ enum status surface_map_file(struct act *a, const struct arguments *given)
 	return st == ST_OK ? world_set_display(a->world, f->id, &d) : st;
 }
 
+/* Lines of all that are shown, as one scene? */
+static bool is_of_shown(struct act *a, const struct model *m)
+{
+	const char *made_of = model_get_attribute(m, "input_hash");
+	int *ids, n = work_scene(a, &ids);
+	char hash[33];
+	const bool is = made_of && n > 1 && work_hash(a->world, ids, n, hash) == ST_OK &&
+	                !strcmp(hash, made_of);
+
+	free(ids);
+	return is;
+}
+
 enum status surface_lines_file(struct act *a, const struct arguments *given)
 {
 	const struct Ful *f = act_current(a, false);
@@ -124,9 +149,10 @@ enum status surface_lines_file(struct act *a, const struct arguments *given)
 		return act_memory(a);
 	enum status st = model_read(&m, path, NULL, &a->report);
 	if (st == ST_OK) {
+		const int thing = is_of_shown(a, &m) ? 0 : f->id;
 		act_say(a, "%s: %d entities", path_file_name(path), m.n);
 		model_finish(&m);
-		return show_file(a, &(struct overlay){ .kind = OVERLAY_LINES, .thing = f->id },
+		return show_file(a, &(struct overlay){ .kind = OVERLAY_LINES, .thing = thing },
 		                 path);
 	}
 	free(path);

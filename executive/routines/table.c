@@ -199,6 +199,7 @@ const struct routine routine_table[] = {
 	{ .code = "V186", .kind = ROUTINE_EDIT, .arguments = rows_rotate, .run = transform_rotate, .needs = "thing" },
 	{ .code = "V187", .kind = ROUTINE_EDIT, .arguments = rows_scale, .run = transform_scale, .needs = "thing" },
 	{ .code = "V188", .kind = ROUTINE_SHOW, .arguments = rows_split_view, .run = world_split },
+	{ .code = "V189", .kind = ROUTINE_SHOW, .arguments = rows_image_on, .run = image_on },
 	{ .code = NULL },
 };
 /* clang-format on */

@@ -10,6 +10,7 @@
 #include "private.h"
 #include "work_order.h"
 
+enum { SCENE_NAME_MAX = 64 };
 enum { LOOK_MS = 200 }; /* how often the wish to stop is looked at */
 
 json_t *work_parameters(const struct arguments *given)
@@ -56,22 +57,27 @@ enum status work_hash(const struct world *w, const int *ids, int n, char out[33]
 	return st;
 }
 
+/* Of several: their names; of many, whose names would be too long, the first one's, how many there are, and
+ * what tells these from others. */
+static char *scene_name(const struct world *w, const int *ids, int n)
+{
+	struct text all = { 0 };
+	char hash[HASH_SIZE] = "";
+
+	for (int k = 0; k < n; k++)
+		text_addf(&all, "%s%s", k ? "+" : "", world_by_id(w, ids[k])->name);
+	if (all.n > SCENE_NAME_MAX) {
+		hash_bytes(all.s, all.n, hash);
+		text_finish(&all);
+		text_addf(&all, "%.*s+%d-%.8s", SCENE_NAME_MAX / 2, world_by_id(w, ids[0])->name,
+		          n - 1, hash);
+	}
+	return text_take(&all);
+}
+
 char *work_name(const struct act *a, const int *ids, int n, const char *suffix)
 {
-	const struct Ful *first = world_by_id(a->world, ids[0]);
-	char *base = NULL;
-
-	for (int k = 1; k < n && first->file; k++) {
-		const char *file = world_by_id(a->world, ids[k])->file;
-		if (!file || strcmp(file, first->file))
-			first = NULL;
-		if (!first)
-			break;
-	}
-	if (n > 1 && first && first->file)
-		base = path_basic_name(first->file);
-	else
-		base = strdup(world_by_id(a->world, ids[0])->name);
+	char *base = scene_name(a->world, ids, n);
 	char *name = base ? text_print("%s%s", base, suffix ? suffix : "") : NULL;
 	char *path = name ? path_join(world_folder(a->world), name) : NULL;
 	free(base);
@@ -99,6 +105,23 @@ int work_scene(struct act *a, int **ids)
 	if (!n)
 		act_current(a, false);
 	return n;
+}
+
+int work_meant(struct act *a, const struct arguments *given, int **ids)
+{
+	const char *which = argument_text(given, "surfaces");
+	const struct Ful *f;
+
+	if (which && !strcmp(which, "shown"))
+		return work_scene(a, ids);
+	f = act_current(a, false);
+	*ids = f ? malloc(sizeof **ids) : NULL;
+	if (f && !*ids)
+		act_memory(a);
+	if (!*ids)
+		return 0;
+	**ids = f->id;
+	return 1;
 }
 
 /* Keep each thing as jobs read it. */
@@ -257,11 +280,16 @@ enum status work_run(struct act *a, const char *worker, json_t *parameters, cons
 
 	if (st == ST_OK)
 		st = work_order_check(&o, a->project, &a->report);
-	if (st == ST_OK)
+	if (st == ST_OK && a->killed) {
+		out->job = (struct Stats){ .state = JOB_KILLED };
+		act_say(a, "%s: its job is not started, in the session it was killed",
+		        a->routine->code);
+		n = 0;
+	} else if (st == ST_OK)
 		st = make_inputs(a, ids, n, inputs);
 	o.inputs = inputs;
 	o.n_inputs = (size_t)n;
-	if (st == ST_OK)
+	if (st == ST_OK && !a->killed)
 		st = send_and_wait(a, &o, out);
 	for (int k = 0; k < n && inputs; k++)
 		free((char *)inputs[k].path);

@@ -95,7 +95,7 @@ void routine_job_ended(struct world *w, const struct Stats *s)
 			found = world_show(w, &o) == ST_OK;
 		}
 		if (!found)
-			world_hide(w, o.kind, o.thing);
+			world_hide_job(w, o.kind, o.thing);
 	}
 }
 

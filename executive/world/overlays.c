@@ -4,8 +4,17 @@
 
 #include "world_private.h"
 
+static void drop_before(struct overlay *o)
+{
+	if (o->before)
+		free(o->before->file);
+	free(o->before);
+	o->before = NULL;
+}
+
 static void remove_overlay(struct world *w, int k)
 {
+	drop_before(&w->overlays[k]);
 	free(w->overlays[k].file);
 	w->n_overlays--;
 	memmove(w->overlays + k, w->overlays + k + 1,
@@ -44,6 +53,23 @@ static int find_overlay(const struct world *w, enum overlay_kind kind, int thing
 	return -1;
 }
 
+/* What a job that begins hides: a result that is whole, or what the job before it hid. */
+static enum status keep_before(struct overlay *o, struct overlay *old)
+{
+	if (o->job && old->job) {
+		o->before = old->before;
+		old->before = NULL;
+	} else if (o->job) {
+		o->before = malloc(sizeof *o->before);
+		if (!o->before)
+			return ST_RESOURCE;
+		*o->before = *old;
+		old->file = NULL;
+	}
+	drop_before(old);
+	return ST_OK;
+}
+
 enum status world_show(struct world *w, const struct overlay *o)
 {
 	struct overlay copy = *o;
@@ -51,12 +77,15 @@ enum status world_show(struct world *w, const struct overlay *o)
 	enum status st = ST_OK;
 
 	copy.file = NULL;
+	copy.before = NULL;
 	if (o->file && !(copy.file = strdup(o->file)))
 		return ST_RESOURCE;
-	if (at >= 0) {
+	if (at >= 0 && (st = keep_before(&copy, &w->overlays[at])) == ST_OK) {
 		free(w->overlays[at].file);
 		w->overlays[at] = copy;
-	} else if ((st = grow((void **)&w->overlays, w->n_overlays, sizeof *w->overlays)) == ST_OK)
+	} else if (at >= 0)
+		free(copy.file);
+	else if ((st = grow((void **)&w->overlays, w->n_overlays, sizeof *w->overlays)) == ST_OK)
 		w->overlays[w->n_overlays++] = copy;
 	else
 		free(copy.file);
@@ -69,6 +98,20 @@ void world_hide(struct world *w, enum overlay_kind kind, int thing)
 	int at = find_overlay(w, kind, thing);
 
 	if (at >= 0)
+		remove_overlay(w, at);
+	w->revision++;
+}
+
+void world_hide_job(struct world *w, enum overlay_kind kind, int thing)
+{
+	const int at = find_overlay(w, kind, thing);
+	struct overlay *before = at >= 0 ? w->overlays[at].before : NULL;
+
+	if (before) {
+		free(w->overlays[at].file);
+		w->overlays[at] = *before;
+		free(before);
+	} else if (at >= 0)
 		remove_overlay(w, at);
 	w->revision++;
 }

@@ -60,6 +60,7 @@ static json_t *sight_json(const struct sight *s)
 	                  s->light_intensity, "specular", rgb_json(s->specular), "reflectivity",
 	                  s->reflectivity, "bell", s->bell, "all_curvatures", s->all_curvatures);
 
+	json_object_set_new(o, "no_image", json_boolean(s->no_image));
 	json_set_text(o, "split", view_split_words[s->split]);
 	json_set_number(o, "near", s->near_);
 	json_set_number(o, "far", s->far_);
@@ -130,7 +131,9 @@ static json_t *overlays_json(const struct world *w)
 	for (int k = 0; k < w->n_overlays; k++) {
 		const struct overlay *v = &w->overlays[k];
 		/* a result whose job is not over has no file of its own */
-		if (v->job || !v->file)
+		if (v->job)
+			v = v->before;
+		if (!v || !v->file)
 			continue;
 		json_t *o =
 		        json_pack("{s:i, s:i, s:s, s:i, s:b, s:b, s:i}", "kind", v->kind, "thing",

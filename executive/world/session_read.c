@@ -99,6 +99,7 @@ static void sight_read(struct sight *s, const json_t *o)
 	s->far_ = json_number(o, "far", 0);
 	s->bell = json_flag(o, "bell", s->bell);
 	s->all_curvatures = json_flag(o, "all_curvatures", false);
+	s->no_image = json_flag(o, "no_image", false);
 	s->has_background = json_is_array(back);
 	s->background = rgb_read(back, s->background);
 	s->split = (enum view_split)word_index(view_split_words, N_SPLITS,

@@ -64,6 +64,7 @@ struct overlay {
 	bool range_given, symmetric; /* of a map */
 	double lo, hi;
 	enum colormap_scale scale;
+	struct overlay *before; /* the world's own: shown again where `job` comes to nothing */
 };
 
 /* Where a probe was kept. */
@@ -89,6 +90,7 @@ struct sight {
 	double reflectivity;
 	bool bell;
 	bool all_curvatures; /* seven tiles */
+	bool no_image;       /* images give way to the things they are of */
 	enum view_split split;
 	struct camera beside; /* of SPLIT_SIDE, from where the second view looks */
 	bool has_beside;
@@ -176,6 +178,8 @@ void world_touch(struct world *w);
 enum status world_show(struct world *w,
                        const struct overlay *o); /* copied; replaces one of its kind and thing */
 void world_hide(struct world *w, enum overlay_kind kind, int thing);
+/* Its job came to nothing: what was shown before it is shown again, or nothing. */
+void world_hide_job(struct world *w, enum overlay_kind kind, int thing);
 int world_overlays(const struct world *w);
 const struct overlay *world_overlay(const struct world *w, int k);
 enum status world_keep_mark(struct world *w, const struct mark *m);

@@ -278,11 +278,15 @@ static void an_image_is_headed_by_its_file(void **state)
 	stand_key(s, KEY_HOME);
 	assert_true(is_headed(s, "plate", ""));
 	assert_int_equal(world_show(s->world, &o), ST_OK);
-	assert_true(is_headed(s, "Image", "lid.shade.exr"));
+	assert_true(is_headed(s, "Image", "lid.shade.exr; I shows the things again"));
 	assert_false(is_headed(s, "plate", ""));
+	stand_type(s, "i");
+	assert_true(is_headed(s, "plate", ""));
+	assert_int_equal(world_overlays(s->world), 1);
+	stand_type(s, "i");
 	o.job = 5;
 	assert_int_equal(world_show(s->world, &o), ST_OK);
-	assert_true(is_headed(s, "Image", "arriving from job 5"));
+	assert_true(is_headed(s, "Image", "arriving from job 5; I shows the things again"));
 	world_hide(s->world, OVERLAY_IMAGE, 0);
 	assert_true(is_headed(s, "plate", ""));
 }

@@ -48,9 +48,9 @@ def test_isophotes_of_a_scene(project):
     done = script(project, *opened, "V90 surfaces=shown", "V91 surfaces=shown", "V159 surface=wigley-1", "V90")
     jobs = [j for j in project.jobs().values() if j["worker"] == "isophotes"]
     assert [len(j["inputs"]) for j in jobs] == [2, 1], jobs
-    assert "wigley.isophote" in done.stdout and "wigley-1.isophote" in done.stdout, done.stdout
+    assert "wigley-1+wigley-2.isophote" in done.stdout and "wigley-1.isophote" in done.stdout, done.stdout
     project.run("batten", "run", "isophotes", "wigley.base", "--count", "3", "--from", "20", "--to", "80", "-o", "verb")
-    assert read(project, "verb.isophote") == read(project, "wigley.isophote")
+    assert read(project, "verb.isophote") == read(project, "wigley-1+wigley-2.isophote")
     script(project, *opened, "V91 surfaces=shown", "V91 surfaces=shown on=no", "V91 surfaces=current")
     script(project, *opened, "V159 surface=wigley-2", "V94 surfaces=current", "V95 surfaces=current",
            "V168 surfaces=current", "V169 surfaces=current")
@@ -58,6 +58,23 @@ def test_isophotes_of_a_scene(project):
     assert [len(j["inputs"]) for j in last] == [1, 1], last
     # what is there is of one of them alone
     script(project, "V175 file=wigley.base", "V127 index=1,1 to=1,0.1,0.2", "V91 surfaces=shown")
+
+
+def test_scenes_have_names_of_their_own(project):
+    """Results of one surface, of several, and of others with the same first one: no file takes another's place."""
+    start(project)
+    start(project, "teapot.base")
+    script(project, "V175 file=wigley.base entity=1", "V71 size=16x16", "V175 file=wigley.base entity=2", "V71 size=16x16",
+           "V71 size=16x16 surfaces=current", "V175 file=teapot.base entity=1,2,3,4,5,6,7", "V71 size=16x16", "V180 name=seventh",
+           "V71 size=16x16")
+    names = sorted(n for n in os.listdir(project.folder) if n.endswith(".shade.exr"))
+    assert len(names) == 5 and {"wigley-1.shade.exr", "wigley-2.shade.exr",
+                                "wigley-1+wigley-2.shade.exr"} < set(names), names
+    assert sum(n.startswith("wigley-1+8-") for n in names) == 2, names
+    script(project, "V175 file=wigley.base", "V79 grid=8x8 surfaces=shown", "V57 lines_u=3 surfaces=shown",
+           "V189 on=no", "V179 to=seven.png size=320x200")
+    maps = [n for n in os.listdir(project.folder) if n.endswith(".map.exr")]
+    assert sorted(maps) == ["wigley-1.map.exr", "wigley-2.map.exr"], maps
 
 
 def test_missing_map_is_computed(project):
@@ -83,7 +100,7 @@ def test_contours_and_reflection(project):
               if j["worker"] == "contours"]
     assert [l["kind"] for l in levels[0]] == ["waterline"] * 3, levels
     assert [(l["kind"], l["value"]) for l in levels[1]] == [("cylinder", 1), ("cylinder", 1.5)], levels
-    assert os.path.exists(project.path("wigley.reflect"))
+    assert os.path.exists(project.path("wigley-1+wigley-2.reflect"))
 
 
 def test_edit_undo_save(project):
@@ -155,7 +172,7 @@ def test_journal(project):
 def test_routines(project):
     """The list of leaves: all there, with paths, and the arguments of their workers."""
     leaves = {r["code"]: r for r in project.json("batten", "routines")["routines"]}
-    assert len(leaves) == 187
+    assert len(leaves) == 188
     for leaf in leaves.values():
         assert set(leaf) >= {"code", "path", "kind", "available", "arguments"}, leaf
         assert leaf["path"].split(" > ")[0] in ("MAIN", "UV", "COSFAIR", "WORLD"), leaf

@@ -1,4 +1,4 @@
-/* test_leaves.c - our menus are whole: every leaf once, 187 of them. */
+/* test_leaves.c - our menus are whole: every leaf once, 188 of them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -30,7 +30,7 @@ static int end(void **state)
 
 static void every_menu_is_counted(void **state)
 {
-	static const int leaves[N_MENUS] = { 152, 13, 12, 10 }, menus[N_MENUS] = { 52, 1, 1, 2 };
+	static const int leaves[N_MENUS] = { 153, 13, 12, 10 }, menus[N_MENUS] = { 52, 1, 1, 2 };
 	const struct menu_set *set = *state;
 
 	for (int k = 0; k < N_MENUS; k++) {

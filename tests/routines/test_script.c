@@ -158,7 +158,7 @@ static void test_replay(void **state)
 	free(path);
 	char *journal = read_all(a, ".batten/journal");
 	assert_non_null(strstr(journal, "V175 file=\"two balls.base\"\n"));
-	assert_non_null(strstr(journal, "V57 lines_u=3 lines_v=7 segments=0\n"));
+	assert_non_null(strstr(journal, "V57 lines_u=3 lines_v=7 segments=0 surfaces=current\n"));
 	assert_non_null(strstr(journal, "V88 count=5 from=10\n"));
 
 	acting_init(b);
@@ -177,6 +177,82 @@ static void test_replay(void **state)
 	free(journal);
 	acting_finish(b);
 	free(b);
+}
+
+static void settle(struct acting *a, int64_t id, bool nothing)
+{
+	struct job_end end = { id, nothing };
+
+	assert_int_equal(journal_settle(a->act.project, &end, 1, NULL), ST_OK);
+}
+
+static void journal_is(struct acting *a, const char *expected)
+{
+	char *text = read_all(a, ".batten/journal");
+
+	assert_string_equal(text, expected);
+	free(text);
+}
+
+/* The line that started a job says what came of it; others stay as they are. */
+static void test_ends_of_jobs(void **state)
+{
+	struct acting *a = *state;
+	static const char text[] = "V60 count=3\n"
+	                           "V76 samples=1 wait=yes    # job 4 \n"
+	                           "V80 surfaces=shown wait=yes    # job 5  12  6 \n"
+	                           "# V165 jobs=4\n"
+	                           "V90 wait=yes # job 7\n" /* no room: not ours */
+	                           "V90 wait=yes    # job 40";
+	char *path = place_path(&a->place, ".batten/journal");
+
+	settle(a, 4, true); /* there is none yet */
+	assert_int_equal(folder_make(a->act.project->hidden, 0777, NULL), ST_OK);
+	assert_int_equal(file_write(path, text, sizeof text - 1, NULL), ST_OK);
+	settle(a, 99, true);
+	journal_is(a, text);
+	settle(a, 7, true);
+	settle(a, 40, true); /* the line is not whole yet */
+	settle(a, 1, true);
+	journal_is(a, text);
+	settle(a, 4, true);
+	settle(a, 12, true);
+	journal_is(a, "V60 count=3\n"
+	              "V76 samples=1 wait=killed # job 4x\n"
+	              "V80 surfaces=shown wait=yes    # job 5  12x 6 \n"
+	              "# V165 jobs=4\n"
+	              "V90 wait=yes # job 7\n"
+	              "V90 wait=yes    # job 40");
+	struct job_end ends[] = { { 6, true }, { 5, true }, { 4, false } };
+	assert_int_equal(journal_settle(a->act.project, ends, 3, NULL), ST_OK);
+	journal_is(a, "V60 count=3\n"
+	              "V76 samples=1 wait=yes    # job 4 \n"
+	              "V80 surfaces=shown wait=killed # job 5x 12x 6x\n"
+	              "# V165 jobs=4\n"
+	              "V90 wait=yes # job 7\n"
+	              "V90 wait=yes    # job 40");
+	free(path);
+}
+
+/* A killed job is not started, and leaves what there was; all else of its line is done. */
+static void test_killed(void **state)
+{
+	struct acting *a = *state;
+
+	place_spheres(&a->place, "balls.base", 2);
+	acting_does(a, "V175 file=balls.base");
+	a->act.journal = true;
+	acting_does(a, "V80 wait=killed");
+	acting_does(a, "V90 surfaces=shown wait=killed");
+	assert_int_equal(world_overlays(a->place.world), 0);
+	assert_int_equal(world_current(a->place.world, false)->display.look, LOOK_MAP);
+	char *socket = place_path(&a->place, ".batten/ledger.db");
+	assert_false(path_exists(socket));
+	free(socket);
+	char *text = read_all(a, ".batten/journal");
+	assert_non_null(strstr(text, "surfaces=shown wait=killed\n"));
+	free(text);
+	acting_fails(a, "V80 wait=kill", ST_PARAMETER, "wait is 'kill'");
 }
 
 /* A journal that cannot be written is told. */
@@ -198,6 +274,8 @@ int main(void)
 		cmocka_unit_test_setup_teardown(test_wrong_lines, acting_setup, acting_teardown),
 		cmocka_unit_test_setup_teardown(test_stops, acting_setup, acting_teardown),
 		cmocka_unit_test_setup_teardown(test_replay, acting_setup, acting_teardown),
+		cmocka_unit_test_setup_teardown(test_ends_of_jobs, acting_setup, acting_teardown),
+		cmocka_unit_test_setup_teardown(test_killed, acting_setup, acting_teardown),
 		cmocka_unit_test_setup_teardown(test_journal_fails, acting_setup, acting_teardown),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -307,6 +307,34 @@ static void test_save(void **state)
 	free(path);
 }
 
+/* What a job that comes to nothing hid is shown again, as it was. */
+static void test_overlay_before(void **state)
+{
+	struct place *p = *state;
+	struct world *w = p->world;
+	struct overlay o = { .kind = OVERLAY_IMAGE, .file = "old.exr" };
+
+	assert_int_equal(world_show(w, &o), ST_OK);
+	o = (struct overlay){ .kind = OVERLAY_IMAGE, .file = "4.part", .job = 4 };
+	assert_int_equal(world_show(w, &o), ST_OK);
+	o = (struct overlay){ .kind = OVERLAY_IMAGE, .file = "5.part", .job = 5 };
+	assert_int_equal(world_show(w, &o), ST_OK);
+	o = *world_overlay(w, 0); /* shown in another way */
+	o.file = "5.part";
+	assert_int_equal(world_show(w, &o), ST_OK);
+	assert_int_equal(world_overlays(w), 1);
+	world_hide_job(w, OVERLAY_IMAGE, 0);
+	assert_int_equal(world_overlays(w), 1);
+	assert_string_equal(world_overlay(w, 0)->file, "old.exr");
+	assert_int_equal(world_overlay(w, 0)->job, 0);
+	world_hide_job(w, OVERLAY_IMAGE, 0);
+	assert_int_equal(world_overlays(w), 0);
+	o = (struct overlay){ .kind = OVERLAY_IMAGE, .file = "6.part", .job = 6 };
+	assert_int_equal(world_show(w, &o), ST_OK);
+	world_hide_job(w, OVERLAY_IMAGE, 0);
+	assert_int_equal(world_overlays(w), 0);
+}
+
 static void test_overlays(void **state)
 {
 	struct place *p = *state;
@@ -354,6 +382,7 @@ int main(void)
 		cmocka_unit_test_setup_teardown(test_many_steps, place_new, place_gone),
 		cmocka_unit_test_setup_teardown(test_names, place_new, place_gone),
 		cmocka_unit_test_setup_teardown(test_save, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_overlay_before, place_new, place_gone),
 		cmocka_unit_test_setup_teardown(test_overlays, place_new, place_gone),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

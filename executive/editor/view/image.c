@@ -86,6 +86,8 @@ static void update(struct image *im, struct rgb ground)
 
 bool images_draw(struct drawing *d)
 {
+	if (world_sight((struct world *)d->world)->no_image)
+		return false;
 	for (int k = 0; k < world_overlays(d->world); k++) {
 		const struct overlay *o = world_overlay(d->world, k);
 		if (o->kind != OVERLAY_IMAGE || !o->file)

@@ -61,6 +61,15 @@ void render_words(const struct world *w, const struct render_options *o, struct 
                   struct text *note)
 {
 	const int quantity = render_quantity(w, o);
+	const struct overlay *image = overlay_of(w, OVERLAY_IMAGE, 0);
+	if (image && image->file && !world_sight((struct world *)w)->no_image) {
+		if (o->title)
+			text_add(title, o->title);
+		else
+			render_add_names(title, w);
+		text_add(note, path_file_name(image->file));
+		return;
+	}
 	if (o->title)
 		text_add(title, o->title);
 	else if (quantity >= 0)
