@@ -1,4 +1,4 @@
-/* test_level_oblique.c - isophotes next to 90 degrees: known ones, in other forms, and as many as on a grid. */
+/* test_level_oblique.c - isophotes next to 90 degrees, and to 0: known ones, in other forms, and as many as on a grid. */
 #include "arbitrary.h"
 #include "level_check.h"
 #include "level_grid.h"
@@ -20,7 +20,8 @@ static struct level_result trace(const struct surface *s, struct vec3 light, dou
 	assert_int_equal(shape_trace(s, LEVEL_ISOPHOTE, light, value, tolerance, &x, NULL), ST_OK);
 	assert_int_equal(x.n_undecided, 0);
 	assert_true(x.max_error <= tolerance);
-	for (size_t b = 0; b < x.n_branches; b++)
+	/* lengths are looked at to 1e-9 there */
+	for (size_t b = 0; x.length > 1 && b < x.n_branches; b++)
 		check_curves(s, &x.branches[b]);
 	return x;
 }
@@ -206,12 +207,81 @@ static void test_grid(void **state)
 	free(parent);
 }
 
+/* A small circle about each point whose normal is the light. */
+static void test_small(void **state)
+{
+	(void)state;
+	const struct vec3 light = vec3_unit(vec3(0.3, -0.2, 0.9));
+	const double degrees[] = { 1e-4, 1e-3, 0.01, 0.1, 179.99, 179.999 };
+	struct surface s = sphere(), r = torus();
+	for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++) {
+		const double c = cosine(degrees[i]), sine = sqrt((1 - c) * (1 + c));
+		const double tolerance = 0.01 * sine;
+		struct level_result x = trace(&s, light, c, tolerance);
+		assert_int_equal(x.n_branches, 1);
+		assert_int_equal(x.n_closed, 1);
+		assert_true(fabs(x.length - 5 * pi * sine) < 1e-3 * x.length);
+		assert_true(off_circle(&x.branches[0], light, 2.5 * sine, 2.5 * c) <=
+		            x.max_error + 1e-14);
+		level_result_finish(&x);
+		x = trace(&r, light, c, tolerance);
+		assert_int_equal(x.n_branches, 2);
+		assert_int_equal(x.n_closed, 2);
+		/* the torus is nowhere more bent than its tube of radius 1 */
+		for (int k = 0; k < 200; k++) {
+			const struct curve *at = &x.branches[k % 2].space;
+			const double t0 = at->domain[0], t1 = at->domain[1];
+			struct vec3 p = curve_point(at, t0 + (t1 - t0) * (k + 0.37) / 200);
+			struct vec3 ring = vec3_scale(vec3_unit(vec3(p.x, p.y, 0)), 3);
+			struct vec3 n = vec3_unit(vec3_sub(p, ring));
+			const double angle = asin(vec3_length(vec3_cross(n, light)));
+			assert_true(fabs(angle - asin(sine)) <= x.max_error + 1e-14);
+		}
+		level_result_finish(&x);
+	}
+	surface_finish(&r);
+	surface_finish(&s);
+}
+
+/* As many loops as at an angle that a grid can count. */
+static void test_small_many(void **state)
+{
+	(void)state;
+	const struct vec3 light = { 0.1, 0.2, 0.9 };
+	double *f = malloc(sizeof *f * ROW * ROW);
+	int *parent = malloc(sizeof *parent * EDGES);
+	assert_true(f && parent);
+	struct surface s = wavy();
+	for (int i = 0; i < ROW * ROW; i++)
+		f[i] = field_at(&s, LEVEL_ISOPHOTE, light, cosine(6),
+		                in_range(s.domain[0], (double)(i / ROW) / GRID),
+		                in_range(s.domain[1], (double)(i % ROW) / GRID));
+	const size_t loops = grid_pieces(f, parent);
+	assert_int_equal(loops, 72);
+	for (int k = 0; k < 4; k++) {
+		const double degrees = (const double[]){ 1e-4, 1e-3, 0.02, 0.5 }[k];
+		struct level_result x;
+		assert_int_equal(
+		        shape_trace(&s, LEVEL_ISOPHOTE, light, cosine(degrees), 1e-5, &x, NULL),
+		        ST_OK);
+		assert_int_equal(x.n_branches, loops);
+		assert_int_equal(x.n_closed, loops);
+		assert_int_equal(x.n_undecided, 0);
+		assert_true(x.max_error <= 1e-5);
+		level_result_finish(&x);
+	}
+	surface_finish(&s);
+	free(f);
+	free(parent);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_sphere), cmocka_unit_test(test_torus),
-		cmocka_unit_test(test_change), cmocka_unit_test(test_forms),
-		cmocka_unit_test(test_grid),
+		cmocka_unit_test(test_sphere),     cmocka_unit_test(test_torus),
+		cmocka_unit_test(test_change),     cmocka_unit_test(test_forms),
+		cmocka_unit_test(test_grid),       cmocka_unit_test(test_small),
+		cmocka_unit_test(test_small_many),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "level_isophote.h"
+#include "level_root.h"
+
 /* Spans narrower than this part of the domain are not meant. */
 static const double narrow_share = 1e-9;
 

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, PIECES_MAX = 4000, PARTS_MAX = 8 };
+enum { FIT_DEPTH_MAX = 40, FIT_DEPTH_EASY = 12, CAP_DEPTH = 4, PIECES_MAX = 4000, PARTS_MAX = 8 };
 
 /* A piece so much shorter than the tolerance may be proved by the strip that it is in; one so many times narrower than
  * its strip is not made shorter. */
@@ -233,10 +233,10 @@ static struct proof rough_proof(const struct follower *w, const struct station *
 	return box_proof(w, a, b, size, length, w->strip.box->lo[other], w->strip.box->hi[other]);
 }
 
-/* From where f has a sure sign beside the piece. If that is much farther away than the piece is long it is rounding
- * that keeps it there, and no shorter piece does better. */
+/* From where f has a sure sign beside the piece. If that is much farther away than the piece is long, and it is no
+ * cap of a curve that turns round, it is rounding that keeps it there, and no shorter piece does better. */
 static struct proof strip_proof(const struct follower *w, const struct station *a,
-                                const struct station *b, double size, double length)
+                                const struct station *b, double size, double length, bool cap)
 {
 	const int other = 1 - w->along;
 	double side[2];
@@ -246,8 +246,8 @@ static struct proof strip_proof(const struct follower *w, const struct station *
 	double extent[2];
 	for (int d = 0; d < 2; d++)
 		extent[d] = fabs(a->uv[d] - b->uv[d]);
-	if (first[other] * (side[1] - side[0] - extent[other]) >
-	    BAND_LENGTHS * (first[0] * extent[0] + first[1] * extent[1])) {
+	if (!cap && first[other] * (side[1] - side[0] - extent[other]) >
+	                    BAND_LENGTHS * (first[0] * extent[0] + first[1] * extent[1])) {
 		p.rounding[0] = p.space;
 		p.rounding[1] = p.uv;
 	}
@@ -371,7 +371,7 @@ static void fit(const struct follower *w, const struct station *a, const struct 
 	bool enough = tiny || depth >= FIT_DEPTH_MAX ||
 	              (depth > FIT_DEPTH_EASY && w->t->pieces.n - w->first > PIECES_MAX);
 	if ((enough || size < STRIP_SHARE * tolerance) && !good(w, &best)) {
-		proof = strip_proof(w, a, b, size, first);
+		proof = strip_proof(w, a, b, size, first, turn < 0 && depth < CAP_DEPTH);
 		proof_improve(&best, &proof);
 	}
 	if (good(w, &best) || enough || tracer_ends(w->t)) {

@@ -11,12 +11,19 @@
 #include <math.h>
 #include <string.h>
 
+#include "level_isophote.h"
+
 /* A patch with many undecided cells is not halved so far any more. */
 enum { FEW_UNDECIDED = 256, MANY_UNDECIDED = 1024, DEPTH_AFTER_FEW = 11, DEPTH_AFTER_MANY = 7 };
 
 /* A cell halved less often is a plateau where f counts as zero, and may be slender; a smaller one
  * is a plateau only where rounding leaves nothing of f. */
 enum { LARGE_LEVELS = 16, SLENDER_LEVELS = 6 };
+
+/* Where the error is above this part of f, f is made once more on cells of every so many levels, and on those that can
+ * be decided. */
+#define AGAIN_SHARE 1e-5
+enum { AGAIN_LEVELS = 8, AGAIN_MAX = 4096 };
 
 /* A side cleared of rounding has numbers below this part of the error. */
 #define SIDE_ZERO 1e-6
@@ -263,6 +270,11 @@ static void sides_confirm(const struct graph *g)
 	}
 }
 
+static bool cell_monotone(const struct tracer *t, const struct cell *cell, const double *c)
+{
+	return monotone_in(t, c, 0, cell->error) || monotone_in(t, c, 1, cell->error);
+}
+
 /* True where the cell is certain, and its arcs are done. */
 static bool cell_decide(struct tracer *t, const struct cell *cell, const double *c)
 {
@@ -296,6 +308,29 @@ static double *scratch_at(struct tracer *t, int depth)
 	return t->scratch[depth];
 }
 
+static void cell_search(struct tracer *t, double *c, struct cell cell, int depth);
+
+/* Rounding is much of f in the cell, and f can be made once more. */
+static bool cell_coarse(const struct cell *cell, double most)
+{
+	return cell->error > AGAIN_SHARE * most && cell->made < cell->level[0] + cell->level[1];
+}
+
+static bool cell_again(struct tracer *t, double *c, struct cell cell, int depth)
+{
+	const struct bound before = t->bound;
+	struct bound b;
+	if (t->n_again >= AGAIN_MAX || !level_isophote_again(t, &cell, c, &b))
+		return false;
+	t->n_again++;
+	cell.made = cell.level[0] + cell.level[1];
+	cell.error = b.error;
+	t->bound = b;
+	cell_search(t, c, cell, depth);
+	t->bound = before;
+	return true;
+}
+
 static void cell_search(struct tracer *t, double *c, struct cell cell, int depth)
 {
 	int m = t->level->degree[0], n = t->level->degree[1];
@@ -305,6 +340,10 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 	form_range(c, t->n_field, &lo, &hi);
 	double most = larger(-lo, hi);
 	bool large = cell.level[0] + cell.level[1] < LARGE_LEVELS;
+	const bool coarse = cell_coarse(&cell, most);
+	if (coarse && (cell.level[0] + cell.level[1]) % AGAIN_LEVELS == 0 &&
+	    cell_again(t, c, cell, depth))
+		return;
 	if (most <= cell.error || (large && most <= ZERO_SHARE * t->bound.size)) {
 		undecided_add(t, &cell, true);
 		return;
@@ -318,6 +357,8 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 			return;
 		one_side = lo > t->side_error;
 	}
+	if (coarse && one_side && cell_monotone(t, &cell, c) && cell_again(t, c, cell, depth))
+		return;
 	if (one_side && cell_decide(t, &cell, c))
 		return;
 	int limit = deepest(t),

@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "curvature.h"
+#include "level_root.h"
 
 /* Relative to the larger curvature: what jumps by less over a line is continuous there. */
 #define JUMP_SHARE 1e-6

@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "level_isophote.h"
+
 static const struct level_surface *surface_of(const struct tracer *t)
 {
 	return t->level->surface;
@@ -157,6 +159,7 @@ static void clean_sides(struct tracer *t, double *c)
 		struct row side = row_of(t, d, upper, 0), next = row_of(t, d, upper, 1);
 		if (!row_is_zero(t, c, side))
 			continue;
+		t->cleaned = true;
 		row_clear(c, side);
 		size_t edge = d == 0 ? level_edge(s, 0, at, t->place[1])
 		                     : level_edge(s, 1, t->place[0], at);
@@ -172,7 +175,7 @@ static void clean_sides(struct tracer *t, double *c)
 bool level_field_make(struct tracer *t, double *out)
 {
 	const struct level *l = t->level;
-	t->own_field = false;
+	t->own_field = t->cleaned = false;
 	const enum level_kind kind = surface_of(t)->kind;
 	bool there = kind == LEVEL_CURVATURE      ? level_curvature_make(t, out)
 	             : level_shapes[kind].several ? level_kind_make(t, out)
@@ -183,6 +186,7 @@ bool level_field_make(struct tracer *t, double *out)
 		return false;
 	clean_sides(t, out);
 	memcpy(t->field, out, sizeof *out * t->n_field);
+	t->field_error = t->bound.error;
 	t->most = form_most(out, t->n_field);
 	return true;
 }

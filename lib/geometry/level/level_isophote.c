@@ -3,17 +3,22 @@
  * With c the cosine f is sin^2 z^2 - c^2 (x^2 + y^2), and z has the sign of c. Near 90 degrees both roots of
  * this nearly touch. There f is z - c s, s a polynomial for the normal's length (level_root.c), which
  * has one root and a slope; what s is off is in the bound, times c.
+ * Near 0 and 180 degrees the curves are small loops, in which f is far below its terms on the patch: there
+ * it is made in the cells, where its terms are small, too.
  */
-#include "level_term.h"
+#include "level_isophote.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "level_root.h"
+#include "level_term.h"
+
 /* Where the length of the normal is not known to this share of it, squares are better. */
 #define LENGTH_SHARE 1e-6
 
-/* No more forms, none of more than twice the degree of s, are needed. */
-enum { FORMS_MAX = 20 };
+/* No more forms, none of more than twice the degree of s, are needed; for squares alone, of the normal's degree. */
+enum { FORMS_MAX = 20, FORMS_SQUARES = 4 };
 
 bool level_oblique(const struct level_field *f)
 {
@@ -25,7 +30,7 @@ size_t level_isophote_room(const struct level *l)
 {
 	const int n = l->oblique ? 2 * l->surface->root->degree : 0;
 	return l->oblique ? FORMS_MAX * form_count(n, n)
-	       : l->side  ? form_count(l->surface->degree[0], l->surface->degree[1])
+	       : l->side  ? FORMS_SQUARES * form_count(l->surface->degree[0], l->surface->degree[1])
 	                  : 1;
 }
 
@@ -74,65 +79,99 @@ static void side_make(struct tracer *t, double *out)
 	t->side_error = s->normal_error[t->patch];
 }
 
-static void squares_make(struct tracer *t, double *out)
+/* The difference of squares in a cell or the patch, from the normal's components there; its bound. */
+static struct bound squares_make(struct tracer *t, const struct form n[3], double *out)
+{
+	const struct level *l = t->level;
+	const double c = l->value, sine = l->sine;
+	struct form f = { out, l->degree[0], l->degree[1], { 0, 0 } };
+	const bool raised = f.m > 2 * n[0].m || f.n > 2 * n[0].n;
+	struct form squares = raised ? form_new(t, 2 * n[0].m, 2 * n[0].n) : f;
+	memset(out, 0, sizeof *out * t->n_field);
+	for (int k = 0; k < 3; k++)
+		form_add_square(&squares, n[k], k == 2 ? sine * sine : -c * c);
+	if (raised)
+		form_add(t, &f, squares, 1);
+	else
+		f.b = squares.b;
+	form_scale(out, f.m, f.n, l->surface->binomial, true);
+	return f.b;
+}
+
+/* One component in a cell. */
+static struct form component_in(struct tracer *t, const struct cell *cell, int k, struct form lower)
 {
 	const struct level_surface *s = t->level->surface;
-	int m = s->degree[0], n = s->degree[1];
-	size_t count = (size_t)(m + 1) * (n + 1);
-	double c = t->level->value, sine = t->level->sine;
-	struct bound normal = level_normal_bound(t);
-	struct bound square = bound_product(normal, normal, 2 * m, 2 * n);
-	t->bound = bound_sum(bound_sum(square, c * c, square), c * c, square);
-	memset(out, 0, sizeof *out * t->n_field);
-	for (int k = 0; k < 3; k++) {
-		for (size_t i = 0; i < count; i++)
-			t->product[i] = t->normals[4 * i + k];
-		form_scale(t->product, m, n, s->binomial, false);
-		form_square(t->product, m, n, k == 2 ? sine * sine : -c * c, out);
-	}
-	form_scale(out, 2 * m, 2 * n, s->binomial, true);
-	side_make(t, out + t->n_field);
+	struct form f = form_new(t, lower.m, lower.n);
+	const size_t count = form_count(f.m, f.n);
+	double error = s->normal_error[t->patch];
+	for (size_t i = 0; i < count; i++)
+		f.c[i] = t->normals[4 * i + k];
+	/* halved, and evaluated on the patch */
+	const int steps = f.m * (cell->level[0] + 4) + f.n * (cell->level[1] + 4) + 32;
+	error += steps * UNIT_ROUNDOFF * form_most(f.c, count);
+	for (int d = 0; d < 2; d++)
+		for (int bit = cell->level[d] - 1; bit >= 0; bit--) {
+			form_split(f.c, f.m, f.n, d, lower.c);
+			if (!(cell->index[d] >> bit & 1))
+				memcpy(f.c, lower.c, sizeof *f.c * count);
+		}
+	f.b = (struct bound){ form_most(f.c, count), error };
+	form_scale(f.c, f.m, f.n, s->binomial, false);
+	return f;
+}
+
+bool level_isophote_again(struct tracer *t, const struct cell *cell, double *out, struct bound *b)
+{
+	const struct level_surface *s = t->level->surface;
+	if (s->kind != LEVEL_ISOPHOTE || t->n_side == 0 || t->own_field || t->cleaned)
+		return false;
+	t->n_product = 0;
+	struct form n[3], lower = form_new(t, s->degree[0], s->degree[1]);
+	for (int k = 0; k < 3; k++)
+		n[k] = component_in(t, cell, k, lower);
+	*b = squares_make(t, n, out);
+	return true;
 }
 
 /* z - c s, or the squares, which have a lower degree, where s is not near enough. */
-static void oblique_make(struct tracer *t, double *out)
+static void oblique_make(struct tracer *t, const struct form n[3], double *out)
 {
 	const struct level *l = t->level;
 	const struct level_surface *s = l->surface;
-	const double c = l->value, sine = l->sine;
-	struct form f = { out, l->degree[0], l->degree[1], { 0, 0 } }, n[3], root;
+	struct form f = { out, l->degree[0], l->degree[1], { 0, 0 } }, root;
 	struct form square = form_new(t, 2 * s->degree[0], 2 * s->degree[1]);
-	memset(out, 0, sizeof *out * t->n_field);
-	for (int k = 0; k < 3; k++) {
-		n[k] = form_normal(t, k);
+	for (int k = 0; k < 3; k++)
 		form_add_square(&square, n[k], 1);
-	}
 	form_tighten(t, &square);
-	if (level_root_form(t, &square, &root) && root.b.error <= LENGTH_SHARE * root.b.size) {
-		form_add(t, &f, n[2], 1);
-		form_add(t, &f, root, -c);
-		t->n_side = 0;
-		t->own_field = true;
-	} else {
-		struct form squares = form_new(t, square.m, square.n);
-		for (int k = 0; k < 3; k++)
-			form_add_square(&squares, n[k], k == 2 ? sine * sine : -c * c);
-		form_add(t, &f, squares, 1);
+	if (!level_root_form(t, &square, &root) || root.b.error > LENGTH_SHARE * root.b.size) {
+		t->bound = squares_make(t, n, out);
 		side_make(t, out + t->n_field);
+		return;
 	}
+	memset(out, 0, sizeof *out * t->n_field);
+	form_add(t, &f, n[2], 1);
+	form_add(t, &f, root, -l->value);
 	form_scale(f.c, f.m, f.n, s->binomial, true);
 	t->bound = f.b;
+	t->n_side = 0;
+	t->own_field = true;
 }
 
 bool level_isophote_make(struct tracer *t, double *out)
 {
 	const struct level_surface *s = t->level->surface;
+	struct form n[3];
 	if (cone_excludes(t, form_count(s->degree[0], s->degree[1])))
 		return false;
 	t->n_product = 0;
-	if (t->level->oblique)
-		oblique_make(t, out);
-	else
-		squares_make(t, out);
+	for (int k = 0; k < 3; k++)
+		n[k] = form_normal(t, k);
+	if (t->level->oblique) {
+		oblique_make(t, n, out);
+	} else {
+		t->bound = squares_make(t, n, out);
+		side_make(t, out + t->n_field);
+	}
 	return true;
 }

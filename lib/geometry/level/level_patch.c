@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "level_isophote.h"
+
 /* Memory on the stack that serves patches of common degrees, in doubles, and with few arcs. */
 enum { ROOM = 8192, LENT_PIECES = 64, LENT_ARCS = 16, FEW_ENDS = 32 };
 

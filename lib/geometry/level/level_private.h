@@ -53,18 +53,7 @@ struct proof_tables {
 	double cosine[PROOF_NODES][PROOF_NODES / 2];
 };
 
-/* The least degree of the polynomial for the normal's length: for curvatures; for isophotes, which need less. */
-enum { ROOT_DEGREE = 16, ROOT_DEGREE_LOW = 12, ROOT_DEGREE_MAX = NORMAL_DEGREE_MAX };
-
-/* Chebyshev's nodes, and what takes values in them to Chebyshev and to Bernstein coefficients. [node] */
-struct root_tables {
-	int degree;
-	double node[ROOT_DEGREE_MAX + 1];
-	double basis[2][ROOT_DEGREE_MAX + 1]
-	            [NORMAL_DEGREE_MAX + 1]; /* of the normals, in the nodes */
-	double chebyshev[ROOT_DEGREE_MAX + 1][ROOT_DEGREE_MAX + 1];
-	double bernstein[ROOT_DEGREE_MAX + 1][ROOT_DEGREE_MAX + 1];
-};
+struct root_tables; /* level_root.h */
 
 /* What does not depend on the value: net, normals, edges. */
 struct level_surface {
@@ -229,6 +218,7 @@ struct cell {
 	int level[2];      /* size 2^-level */
 	unsigned index[2]; /* lower corner index x size */
 	double error;      /* of the coefficients: what is less has no certain sign */
+	int made;          /* the sum of levels at which f was made */
 };
 
 struct undecided {
@@ -252,7 +242,10 @@ struct tracer {
 	double *field;          /* coefficients of f */
 	size_t n_field, n_side; /* coefficients of f, and of the side condition behind them */
 	bool own_field;         /* f is evaluated from `field` (a factor was taken out) */
-	struct bound bound;     /* of f; its size that of the terms that f is a sum of */
+	bool cleaned;           /* a side of rounding became zero */
+	int n_again;            /* how often f was made once more */
+	struct bound bound; /* of f in the cell; its size that of the terms that f is a sum of */
+	double field_error; /* of `field` */
 	double side_error;
 	double most; /* largest coefficient of f */
 	struct list arcs, pieces, ends, undecided, umbilics;
@@ -295,13 +288,6 @@ struct field_point {
 };
 void level_field_at(const struct tracer *t, double u, double v, struct field_point *out);
 
-/* level_isophote.c: like level_field_make, but at 90 degrees. Isophotes whose cosine is at most LEVEL_OBLIQUE
- * are made from the normal's length; below LEVEL_COSINE_ZERO it is 0. */
-#define LEVEL_OBLIQUE     0.02
-#define LEVEL_COSINE_ZERO 1e-15
-bool level_isophote_make(struct tracer *t, double *out);
-size_t level_isophote_room(const struct level *l);
-
 /* level_kind.c: the kinds that are products of several forms. `out` receives f and the side
  * condition; false where there is no curve. */
 bool level_kind_make(struct tracer *t, double *out);
@@ -329,14 +315,6 @@ enum status level_curvature_agrees(const struct level_surface *s, const int patc
 enum status level_net_raise(struct bezier_net *net, int d);
 enum status level_net_halve(struct bezier_net *net, int d, const bool *spans);
 enum status level_net_even(struct bezier_net *net); /* halve where weights are far apart */
-
-/* level_root.c */
-void level_root_tables(struct root_tables *x, int least, const int degree[2],
-                       const double *binomial);
-
-/* Halve spans until the polynomials for the normal's length should be right to `share` of it. The normals
- * are those of the net, before and after. Errors: ST_RESOURCE. */
-enum status level_root_refine(struct level_surface *s, double share);
 
 /* level_cell.c: nothing is known of the whole patch; `flat`: it has no normals. */
 void level_patch_undecided(struct tracer *t, bool flat);

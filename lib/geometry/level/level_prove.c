@@ -100,7 +100,7 @@ static void second_improve(struct prover *p, const double rounding[3])
 		coarse |= rounding[g] > ROUNDING_SHARE * p->spread[g];
 	if (!coarse)
 		return;
-	second_bounds(t->field, degree[0], degree[1], t->bound.error, (double[2]){ 1, 1 }, second,
+	second_bounds(t->field, degree[0], degree[1], t->field_error, (double[2]){ 1, 1 }, second,
 	              spread, others);
 	for (int g = 0; g < 3; g++)
 		if (spread[g] < p->spread[g]) {

@@ -6,11 +6,14 @@
  * R / n (2.5 D + 0.75 S / n), D the degree of s and S the largest |N'u|. Where s would be off by too much
  * the patches are halved beforehand.
  */
-#include "level_term.h"
+#include "level_root.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "level_isophote.h"
+#include "level_term.h"
 
 /* Directions are halved so often at most, while there are fewer patches than so many times those at first, or for
  * isophotes than a few; never more than most. */
