@@ -30,15 +30,23 @@ class Screen:
         read, write = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp",
-             "-noreset", "-fbdir", self.pixels], pass_fds=[write], stderr=subprocess.DEVNULL)
+             "-noreset", "-fbdir", self.pixels], pass_fds=[write], stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
-        with os.fdopen(read) as f:
-            number = f.readline().strip()
-        assert number, "Xvfb did not start"
-        project.environment.update(DISPLAY=f":{number}", LIBGL_ALWAYS_SOFTWARE="1")
-        self.begun = time.monotonic()
-        self.editor = project.start("batten", *files, stderr=subprocess.PIPE)
-        self.window = end.until(self.find, "a window").split()[0] if wait else None
+        self.editor = None
+        begun = False
+        try:
+            with os.fdopen(read) as f:
+                number = f.readline().strip()
+            assert number, "Xvfb did not start"
+            project.environment.update(DISPLAY=f":{number}", LIBGL_ALWAYS_SOFTWARE="1")
+            self.begun = time.monotonic()
+            self.editor = project.start("batten", *files, stderr=subprocess.PIPE)
+            self.window = end.until(self.find, "a window").split()[0] if wait else None
+            begun = True
+        finally:
+            if not begun:
+                self.finish()
 
     def find(self):
         assert self.editor.poll() is None, self.editor.stderr.read()
@@ -49,13 +57,20 @@ class Screen:
         return self
 
     def __exit__(self, *_):
-        if self.editor.poll() is None:
-            self.editor.kill()
-        self.editor.wait()
-        if self.server.poll() is None:
-            self.server.terminate()  # it takes its socket and lock away
-        self.server.wait()
-        self.editor.stderr.close()
+        self.finish()
+
+    def finish(self):
+        """No process stays behind, whatever had begun."""
+        try:
+            if self.editor:
+                if self.editor.poll() is None:
+                    self.editor.kill()
+                self.editor.wait()
+                self.editor.stderr.close()
+        finally:
+            if self.server.poll() is None:
+                self.server.terminate()  # it takes its socket and lock away
+            self.server.wait()
 
     def tool(self, *arguments):
         done = subprocess.run(["xdotool", *map(str, arguments)], env=self.project.environment,
