@@ -13,8 +13,7 @@ enum { PIECE = 8192, BACKLOG_PAUSE = 256 << 10 };
 
 struct log_reader {
 	uv_fs_event_t event;
-	struct request *request; /* borrowed; NULL: gone */
-	int fd;                  /* -1: not there yet */
+	int fd; /* -1: not there yet */
 	off_t at;
 	bool follow, watching;
 };
@@ -33,14 +32,12 @@ static void on_event(uv_fs_event_t *e, const char *name, int events, int status)
 	(void)status;
 }
 
-enum status log_reader_create(struct request *q, const struct Stats *s, bool follow)
+enum status log_reader_create(struct request *q, bool follow)
 {
 	struct log_reader *l = calloc(1, sizeof *l);
-	(void)s;
 	if (!l)
 		return ST_RESOURCE;
 	l->fd = -1;
-	l->request = q;
 	l->follow = follow;
 	l->event.data = l;
 	uv_fs_event_init(&q->session->server->loop, &l->event);
@@ -101,9 +98,9 @@ static size_t piece_text(struct text *out, const char *p, size_t n, bool last)
 	return i;
 }
 
-static bool piece_send(struct log_reader *l, bool over)
+static bool piece_send(struct request *q, bool over)
 {
-	struct request *q = l->request;
+	struct log_reader *l = q->log;
 	char bytes[PIECE];
 	struct stat s;
 	if (l->fd < 0)
@@ -126,7 +123,7 @@ static bool piece_send(struct log_reader *l, bool over)
 	return used > 0;
 }
 
-void log_reader_more(struct request *q)
+bool log_reader_more(struct request *q)
 {
 	struct log_reader *l = q->log;
 	const struct Stats *s = queue_find(q->session->server->queue, q->jobs[0]);
@@ -134,9 +131,7 @@ void log_reader_more(struct request *q)
 	if (s)
 		log_open(l, s->log);
 	while (session_backlog(q->session) < BACKLOG_PAUSE)
-		if (!piece_send(l, over)) {
-			if (over)
-				request_end(q);
-			return;
-		}
+		if (!piece_send(q, over))
+			return over;
+	return false;
 }

@@ -281,7 +281,7 @@ static void take_log(struct request *q, const struct request_row *row, const jso
 		             (long long)id);
 	} else if (request_room(q, 1)) {
 		q->jobs[q->n++] = id;
-		if (log_reader_create(q, s, json_flag(body, "follow", false)) != ST_OK)
+		if (log_reader_create(q, json_flag(body, "follow", false)) != ST_OK)
 			request_fail(q, ST_RESOURCE, "out of memory");
 	}
 	if (q->error)
@@ -456,7 +456,8 @@ void request_check(struct request *q)
 	if (q->type == MESSAGE_WATCH && q->behind && session_backlog(q->session) < BACKLOG_FULL / 2)
 		watch_all(q);
 	if (q->log) {
-		log_reader_more(q);
+		if (log_reader_more(q))
+			request_end(q);
 		return;
 	}
 	if (!q->met) {

@@ -92,8 +92,9 @@ void request_end(struct request *q);
 void request_destroy(struct request *q);
 
 /* log_reader.c: a LOG request's file */
-enum status log_reader_create(struct request *q, const struct Stats *s, bool follow);
-void log_reader_more(struct request *q); /* send what is there */
+enum status log_reader_create(struct request *q, bool follow);
+bool log_reader_more(
+        struct request *q); /* send what is there; true: it is all, and no more will come */
 void log_reader_destroy(struct log_reader *l);
 
 /* prune.c: take away what belongs to no job */
