@@ -4,7 +4,7 @@
 
 #include <libdeflate.h>
 
-#include "exr.h"
+#include "exr_private.h"
 
 /* Source: IEEE 754-2008, binary16. */
 static float from_half(unsigned h)
@@ -56,16 +56,9 @@ enum status exr_unpack(const struct exr_image *im, size_t i, const char *bytes, 
                        float *const *planes)
 {
 	int x, y, w, h, order[EXR_CHANNELS_MAX];
-	size_t size = 0;
+	size_t size;
 	exr_tile_window(im, i, &x, &y, &w, &h);
-	for (int c = 0; c < im->n_channels; c++) {
-		int k = c;
-		size += (size_t)w * h * (im->channels[c].half ? 2 : 4);
-		for (; k > 0 && strcmp(im->channels[order[k - 1]].name, im->channels[c].name) > 0;
-		     k--)
-			order[k] = order[k - 1];
-		order[k] = c;
-	}
+	size = exr_order(im, (size_t)w * h, order);
 	if (n < EXR_CHUNK_HEAD)
 		return ST_INPUT;
 	bytes += EXR_CHUNK_HEAD;

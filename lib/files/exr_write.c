@@ -1,5 +1,5 @@
-/* exr_write.c - tiles of OpenEXR images packed one by one, and files made of packed tiles. */
-#include "exr.h"
+/* exr_write.c - OpenEXR files made of packed tiles. */
+#include "exr_private.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -7,13 +7,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <libdeflate.h>
 #include <openexr.h>
 
-enum { ZIP_LEVEL = 2, SLICE = 4096, MAGIC_SIZE = 8 };
-
-/* What a sample must shrink to for a tile to be compressed at all. */
-static const double worth = 0.9;
+enum { MAGIC_SIZE = 8 };
 
 int exr_tiles_across(const struct exr_image *im)
 {
@@ -93,7 +89,7 @@ static exr_result_t begin(exr_context_t *out, const char *name, struct sink *sin
 	init.error_handler_fn = keep_message;
 	init.user_data = sink;
 	init.write_fn = sink_write;
-	init.zip_level = ZIP_LEVEL;
+	init.zip_level = EXR_ZIP_LEVEL;
 
 	exr_context_t f;
 	exr_result_t e = exr_start_write(&f, name, EXR_WRITE_FILE_DIRECTLY, &init);
@@ -124,146 +120,6 @@ static exr_result_t begin(exr_context_t *out, const char *name, struct sink *sin
 	return e;
 }
 
-/* Where a chunk goes, and what compresses it. */
-struct chunk {
-	struct text *out;
-	struct libdeflate_compressor *zip;
-};
-
-/* The differences of every second of n bytes, as the format's zip works on them: what is smooth
- * becomes small. The first one is the difference to `before`. */
-static void differences(const uint8_t *bytes, size_t n, uint8_t before, uint8_t *out)
-{
-	out[0] = (uint8_t)(bytes[0] - before + 128);
-	for (size_t i = 1; i < n; i++)
-		out[i] = (uint8_t)(bytes[2 * i] - bytes[2 * i - 2] + 128);
-}
-
-/*
- * Whether zip saves a tenth, from a slice of either half of what it would work on. The mantissas of
- * smooth values in float are noise: of a map of curvatures zip saved 8 % and took three quarters of
- * the whole job's time.
- */
-static bool is_worth(struct libdeflate_compressor *zip, const uint8_t *bytes, size_t n)
-{
-	uint8_t sample[2 * SLICE], packed[2 * SLICE];
-	if (n < 4 * sizeof sample)
-		return true;
-	for (int half = 0; half < 2; half++) {
-		const uint8_t *p = bytes + (n / 4 - SLICE / 2) * 2 + half;
-		differences(p, SLICE, p[-2], sample + (size_t)half * SLICE);
-	}
-	return libdeflate_zlib_compress(zip, sample, sizeof sample, packed,
-	                                (size_t)(worth * sizeof packed)) > 0;
-}
-
-/*
- * ZIP of OpenEXR: even bytes, then odd ones, as differences, deflated; what does not become smaller
- * stays as it is. libdeflate takes a third of the library's own time.
- * Source: OpenEXR, Technical Introduction, ZIP.
- */
-static exr_result_t compress_chunk(exr_encode_pipeline_t *e)
-{
-	struct chunk *chunk = e->encoding_user_data;
-	const uint8_t *bytes = e->packed_buffer;
-	size_t n = e->packed_bytes, even = (n + 1) / 2, size = 0;
-	exr_result_t result = EXR_ERR_OUT_OF_MEMORY;
-
-	if (n < 2 || !is_worth(chunk->zip, bytes, n)) {
-		text_add_bytes(chunk->out, bytes, n);
-		return chunk->out->failed ? EXR_ERR_OUT_OF_MEMORY : EXR_ERR_SUCCESS;
-	}
-	uint8_t *small = malloc(n), *packed = malloc(n);
-	if (small && packed) {
-		differences(bytes, even, 0, small);
-		differences(bytes + 1, n - even, bytes[2 * even - 2], small + even);
-		small[0] = bytes[0]; /* the first is itself */
-		size = libdeflate_zlib_compress(chunk->zip, small, n, packed, n - 1);
-		text_add_bytes(chunk->out, size ? packed : bytes, size ? size : n);
-		if (!chunk->out->failed)
-			result = EXR_ERR_SUCCESS;
-	}
-	free(packed);
-	free(small);
-	return result;
-}
-
-/* Its bytes have gone where they belong. */
-static exr_result_t take_chunk(exr_encode_pipeline_t *e)
-{
-	(void)e;
-	return EXR_ERR_SUCCESS;
-}
-
-/* The library keeps channels sorted by name; planes come in the image's order. */
-static const float *plane_of(const struct exr_image *im, const float *const *planes,
-                             const char *name)
-{
-	for (int c = 0; c < im->n_channels; c++)
-		if (!strcmp(im->channels[c].name, name))
-			return planes[c];
-	return NULL;
-}
-
-static void add_u32(struct text *out, uint64_t x)
-{
-	const unsigned char bytes[4] = { x, x >> 8, x >> 16, x >> 24 };
-	text_add_bytes(out, bytes, sizeof bytes);
-}
-
-/*
- * A tile's chunk does not depend on where it lies, so it is packed as the only tile of an image of
- * its own size: a context costs microseconds, and threads share nothing.
- */
-enum status exr_pack(const struct exr_image *im, size_t i, const float *const *planes,
-                     struct text *out)
-{
-	int x, y, w, h;
-	exr_tile_window(im, i, &x, &y, &w, &h);
-
-	const size_t head = out->n + EXR_CHUNK_HEAD - 4, across = (size_t)exr_tiles_across(im);
-	struct sink nowhere = { .fd = -1 };
-	exr_context_t f;
-	add_u32(out, i % across);
-	add_u32(out, i / across);
-	for (int k = 0; k < 3; k++) /* level in x and y, and the size, which is not known yet */
-		add_u32(out, 0);
-	if (begin(&f, "tile", &nowhere, im, w, h))
-		return ST_RESOURCE;
-	exr_encode_pipeline_t pipe = EXR_ENCODE_PIPELINE_INITIALIZER;
-	exr_chunk_info_t info;
-	exr_result_t e = exr_write_tile_chunk_info(f, 0, 0, 0, 0, 0, &info);
-	if (!e)
-		e = exr_encoding_initialize(f, 0, &info, &pipe);
-	for (int c = 0; c < pipe.channel_count && !e; c++) {
-		exr_coding_channel_info_t *ch = &pipe.channels[c];
-		ch->encode_from_ptr = (const uint8_t *)plane_of(im, planes, ch->channel_name);
-		ch->user_data_type = EXR_PIXEL_FLOAT;
-		ch->user_bytes_per_element = sizeof(float);
-		ch->user_pixel_stride = sizeof(float);
-		ch->user_line_stride = w * (int)sizeof(float);
-	}
-	if (!e)
-		e = exr_encoding_choose_default_routines(f, 0, &pipe);
-	struct chunk chunk = { .out = out, .zip = libdeflate_alloc_compressor(ZIP_LEVEL) };
-	if (!chunk.zip)
-		e = EXR_ERR_OUT_OF_MEMORY;
-	pipe.encoding_user_data = &chunk;
-	pipe.compress_fn = compress_chunk;
-	pipe.write_fn = take_chunk;
-	if (!e)
-		e = exr_encoding_run(f, 0, &pipe);
-	libdeflate_free_compressor(chunk.zip);
-	exr_encoding_destroy(f, &pipe);
-	exr_finish(&f);
-	if (e || out->failed)
-		return ST_RESOURCE;
-	const size_t size = out->n - head - 4;
-	for (int k = 0; k < 4; k++)
-		out->s[head + k] = (char)(size >> 8 * k);
-	return ST_OK;
-}
-
 enum status exr_front(const struct exr_image *im, const void *first, size_t n,
                       const uint64_t *places, struct text *out)
 {
@@ -279,8 +135,8 @@ enum status exr_front(const struct exr_image *im, const void *first, size_t n,
 		text_add_bytes(out, first, n);
 		text_add_bytes(out, header.s + MAGIC_SIZE, header.n - MAGIC_SIZE);
 		for (size_t i = 0; i < exr_tiles(im); i++) {
-			add_u32(out, places[i]);
-			add_u32(out, places[i] >> 32);
+			exr_add_u32(out, places[i]);
+			exr_add_u32(out, places[i] >> 32);
 		}
 	}
 	text_finish(&header);
