@@ -194,6 +194,16 @@ static void on_stopped(void *data, int64_t id, bool stopped)
 		c->sink.stopped(c->sink.data, id, stopped);
 }
 
+static void on_refused(void *data, int64_t id)
+{
+	struct crew *c = data;
+	struct team *t;
+	if (member_of(c, id, &t))
+		team_refused(t);
+	else if (t && !t->members)
+		c->sink.refused(c->sink.data, id);
+}
+
 static void on_waits(void *data, int64_t id, const char *reason)
 {
 	struct crew *c = data;
@@ -214,6 +224,7 @@ struct launcher_sink crew_sink(struct crew *c)
 		.drained = on_drained,
 		.exited = on_exited,
 		.stopped = on_stopped,
+		.refused = on_refused,
 		.waits = on_waits,
 	};
 }

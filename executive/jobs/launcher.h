@@ -25,6 +25,8 @@ struct launcher_sink {
 	void (*drained)(void *data, int64_t id);                    /* its pipe has ended */
 	void (*exited)(void *data, int64_t id, const struct launcher_exit *e);
 	void (*stopped)(void *data, int64_t id, bool stopped); /* or goes on */
+	/* It was to be stopped, and whoever is asked does not do it: it goes on. */
+	void (*refused)(void *data, int64_t id);
 	/* It will begin when others let it, and why not yet; NULL: from now on it can say HELLO. */
 	void (*waits)(void *data, int64_t id, const char *reason);
 };

@@ -117,6 +117,8 @@ const struct Stats *queue_at(const struct queue *q, int i);
 /* Any job, also one that is only in the ledger; borrowed until the next call. NULL: there is none. */
 const struct Stats *queue_find(struct queue *q, int64_t id);
 bool queue_has(struct queue *q, int64_t id);
+/* Suspended, or ended, but not yet: the answer to who asked for it is still to come. */
+bool queue_stopping(const struct queue *q, int64_t id);
 bool queue_holds(const struct queue *q, int64_t id); /* in memory */
 
 /* Its record as JSON, appended: stats_write_brief, or where it is in memory and full is asked for

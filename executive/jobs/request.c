@@ -420,8 +420,15 @@ static bool request_met(struct request *q, const struct request_row *row)
 		/* one that is not in memory has ended, and more than that nobody waits for */
 		if (!queue_holds(jobs, q->jobs[q->at]))
 			continue;
-		if (!row->wanted(queue_find(jobs, q->jobs[q->at])->state))
+		if (row->wanted(queue_find(jobs, q->jobs[q->at])->state))
+			continue;
+		if (q->type != MESSAGE_SUSPEND || queue_stopping(jobs, q->jobs[q->at]))
 			return false;
+		struct report r = request_report(q);
+		report_error(&r, ST_RESOURCE,
+		             "job %lld goes on: what runs it does not take the order to stop; see "
+		             "'batten log %lld'",
+		             (long long)q->jobs[q->at], (long long)q->jobs[q->at]);
 	}
 	for (int i = 0; !q->jobs && i < queue_count(jobs); i++) {
 		const struct Stats *s = queue_at(jobs, i);

@@ -24,9 +24,10 @@ struct slurm_job {
 	bool busy;       /* a program of Slurm is at work on it */
 	bool held;       /* stopped while it waited: Slurm does not start it */
 	enum slurm_want want, is;
-	int refusals;  /* of the order to get from is to want */
-	bool sweeping; /* srun is gone, what it started is being ended */
-	int sweeps;    /* looks so far whether that is gone */
+	int refusals;        /* of the order to get from is to want */
+	uint64_t refused_ms; /* the loop's time of the first of those */
+	bool sweeping;       /* srun is gone, what it started is being ended */
+	int sweeps;          /* looks so far whether that is gone */
 	struct launcher_exit exit;
 };
 

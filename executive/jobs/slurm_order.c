@@ -19,8 +19,10 @@ struct order {
 	struct order *next;
 	uv_process_t process;
 	uv_pipe_t pipe;
+	uv_timer_t limit;
 	int n_handles; /* still open */
 	int status;
+	bool late; /* its time is over */
 	struct text output;
 	order_done *done;
 	void *data;
@@ -75,8 +77,26 @@ static void handle_close(uv_handle_t *h)
 static void on_exit_seen(uv_process_t *p, int64_t status, int signal)
 {
 	struct order *k = p->data;
-	k->status = signal ? -1 : (int)status;
+	k->status = signal || k->late ? -1 : (int)status;
 	handle_close((uv_handle_t *)p);
+	/* what it left behind may hold its pipe */
+	if (k->late)
+		handle_close((uv_handle_t *)&k->pipe);
+	if (uv_is_closing((uv_handle_t *)&k->pipe))
+		handle_close((uv_handle_t *)&k->limit);
+}
+
+/* A program that waits for a controller that is gone is as one that was refused. */
+static void on_limit(uv_timer_t *t)
+{
+	struct order *k = t->data;
+	k->late = true;
+	if (uv_is_closing((uv_handle_t *)&k->process)) {
+		handle_close((uv_handle_t *)&k->pipe);
+		handle_close((uv_handle_t *)t);
+	} else {
+		uv_process_kill(&k->process, SIGKILL);
+	}
 }
 
 static void on_room(uv_handle_t *h, size_t wanted, uv_buf_t *b)
@@ -91,8 +111,11 @@ static void on_read(uv_stream_t *s, ssize_t n, const uv_buf_t *b)
 	if (n > 0)
 		text_add_bytes(&k->output, b->base, (size_t)n);
 	free(b->base);
-	if (n < 0 || k->output.failed || k->output.n > ORDER_OUTPUT_MAX)
+	if (n < 0 || k->output.failed || k->output.n > ORDER_OUTPUT_MAX) {
 		handle_close((uv_handle_t *)s);
+		if (uv_is_closing((uv_handle_t *)&k->process))
+			handle_close((uv_handle_t *)&k->limit);
+	}
 }
 
 bool order_run(struct orders *c, char *const argv[], order_done *done, void *data, int64_t tag)
@@ -104,9 +127,10 @@ bool order_run(struct orders *c, char *const argv[], order_done *done, void *dat
 	k->done = done;
 	k->data = data;
 	k->tag = tag;
-	k->process.data = k->pipe.data = k;
-	k->n_handles = 2;
+	k->process.data = k->pipe.data = k->limit.data = k;
+	k->n_handles = 3;
 	uv_pipe_init(c->loop, &k->pipe, 0);
+	uv_timer_init(c->loop, &k->limit);
 	uv_stdio_container_t io[3] = {
 		{ .flags = UV_IGNORE },
 		{ .flags = UV_CREATE_PIPE | UV_WRITABLE_PIPE,
@@ -127,8 +151,10 @@ bool order_run(struct orders *c, char *const argv[], order_done *done, void *dat
 	if (uv_spawn(c->loop, &k->process, &options)) {
 		handle_close((uv_handle_t *)&k->process);
 		handle_close((uv_handle_t *)&k->pipe);
+		handle_close((uv_handle_t *)&k->limit);
 		return true;
 	}
+	uv_timer_start(&k->limit, on_limit, ORDER_MS, 0);
 	uv_read_start((uv_stream_t *)&k->pipe, on_room, on_read);
 	return true;
 }
@@ -139,6 +165,7 @@ void orders_close(struct orders *c)
 	for (struct order *k = c->first; k; k = k->next) {
 		handle_close((uv_handle_t *)&k->process);
 		handle_close((uv_handle_t *)&k->pipe);
+		handle_close((uv_handle_t *)&k->limit);
 	}
 }
 

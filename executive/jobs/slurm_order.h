@@ -15,7 +15,8 @@ struct orders; /* opaque; those that run */
  * order_run. */
 typedef void order_done(void *data, int64_t tag, int status, const char *output);
 
-enum { ORDER_OUTPUT_MAX = 16 << 20 };
+/* of what it says; after so long it is killed */
+enum { ORDER_OUTPUT_MAX = 16 << 20, ORDER_MS = 30000 };
 
 /* loop is borrowed. Errors: ST_RESOURCE. */
 enum status orders_create(struct orders **out, uv_loop_t *loop);

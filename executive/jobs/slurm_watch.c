@@ -17,7 +17,8 @@ enum {
 	SWEEPS_MAX = 20,
 	AGAIN_FIRST_MS = 100,
 	AGAIN_LAST_MS = 1600,
-	AGAIN_MAX = 12
+	AGAIN_MAX = 12,
+	AGAIN_MS = 60000 /* no longer than that, whatever each try takes */
 };
 
 static void on_sweep(uv_timer_t *t);
@@ -153,12 +154,31 @@ static void on_again(uv_timer_t *t)
  * controller starts: the order is given again. False: often enough. */
 static bool job_works_again(struct slurm *s, struct slurm_job *j)
 {
-	if (j->refusals >= AGAIN_MAX)
+	const uint64_t now = uv_now(s->again.loop);
+	if (!j->refusals)
+		j->refused_ms = now;
+	if (j->refusals >= AGAIN_MAX || now - j->refused_ms >= AGAIN_MS)
 		return false;
 	uint64_t ms = (uint64_t)AGAIN_FIRST_MS << j->refusals++;
 	if (!uv_is_active((uv_handle_t *)&s->again))
 		uv_timer_start(&s->again, on_again, ms < AGAIN_LAST_MS ? ms : AGAIN_LAST_MS, 0);
 	return true;
+}
+
+/* The order was refused often enough: as if it had not been given. */
+static void job_stays(struct slurm *s, struct slurm_job *j)
+{
+	const enum slurm_want wanted = j->want;
+	j->refusals = 0;
+	if (wanted == WANT_END) {
+		j->is = WANT_END; /* its end will be seen */
+		return;
+	}
+	j->want = j->is;
+	if (wanted == WANT_STOP)
+		s->sink.refused(s->sink.data, j->id);
+	else
+		s->sink.stopped(s->sink.data, j->id, true);
 }
 
 static void on_worked(void *data, int64_t tag, int status, const char *output)
@@ -178,7 +198,7 @@ static void on_worked(void *data, int64_t tag, int status, const char *output)
 		if (job_works_again(s, j))
 			return;
 		s->below->note(s->below->data, id, "warning", "Slurm does not take the order");
-		j->is = did; /* its end will be seen, or the next order does */
+		job_stays(s, j);
 		return;
 	} else if (status && j->want == j->is) {
 		s->sink.stopped(s->sink.data, id, j->is == WANT_STOP); /* as if never asked */

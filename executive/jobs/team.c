@@ -373,6 +373,12 @@ void team_stopped(struct team *t, struct member *m, bool stopped)
 	stops_check(t);
 }
 
+void team_refused(struct team *t)
+{
+	team_signal(t, LAUNCHER_CONTINUE);
+	t->above->refused(t->above->data, job_of(t));
+}
+
 void team_waits(struct team *t, struct member *m, const char *reason)
 {
 	m->waiting = reason != NULL;

@@ -46,6 +46,7 @@ void team_packet(struct team *t, struct member *m, const struct message *packet)
 void team_exited(struct team *t, struct member *m, const struct launcher_exit *e);
 void team_drained(struct team *t, struct member *m);
 void team_stopped(struct team *t, struct member *m, bool stopped);
+void team_refused(struct team *t); /* one is not stopped: all go on */
 void team_waits(struct team *t, struct member *m, const char *reason);
 
 #endif

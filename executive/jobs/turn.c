@@ -214,6 +214,22 @@ static void sink_stopped(void *data, int64_t id, bool stopped)
 		job_step(job, stopped ? EV_STOPPED : EV_CONTINUED, NULL);
 }
 
+static void sink_refused(void *data, int64_t id)
+{
+	struct job *job = running(data, id);
+	if (!job || !job->stopping)
+		return;
+	const struct queue_limits *limits = &job->q->limits;
+	double now = queue_now(job->q);
+	bool ends = job->finished || job->fault || job->exited || job->drained;
+	job->stopping = false;
+	job->deadline = !job->greeted ? now + limits->hello_grace
+	                : ends        ? now + limits->end_grace
+	                              : INFINITY;
+	job_reason(job, NULL);
+	job_changed(job, true);
+}
+
 static void sink_waits(void *data, int64_t id, const char *reason)
 {
 	struct job *job = running(data, id);
@@ -236,8 +252,15 @@ struct launcher_sink queue_sink(struct queue *q)
 		.drained = sink_drained,
 		.exited = sink_exited,
 		.stopped = sink_stopped,
+		.refused = sink_refused,
 		.waits = sink_waits,
 	};
+}
+
+bool queue_stopping(const struct queue *q, int64_t id)
+{
+	const struct job *job = queue_job(q, id);
+	return job && (job->stopping || job->stats.state == JOB_ENDING);
 }
 
 int queue_count(const struct queue *q)

@@ -356,6 +356,11 @@ void fake_eof(struct fake *f, int64_t id)
 	queue_turn(f->q);
 }
 
+void fake_refused(struct fake *f, int64_t id)
+{
+	f->sink.refused(f->sink.data, id);
+}
+
 void fake_stopped(struct fake *f, int64_t id, bool stopped)
 {
 	f->sink.stopped(f->sink.data, id, stopped);

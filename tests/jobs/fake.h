@@ -51,6 +51,7 @@ void fake_hello(struct fake *f, int64_t id);
 void fake_packet(struct fake *f, int64_t id, enum message_type type, json_t *body);
 void fake_exit(struct fake *f, int64_t id, int status, int signal);
 void fake_eof(struct fake *f, int64_t id);
+void fake_refused(struct fake *f, int64_t id);
 void fake_stopped(struct fake *f, int64_t id, bool stopped);
 /* HELLO, RESULT, DONE, exit 0, end of the pipe. */
 void fake_success(struct fake *f, int64_t id);

@@ -119,6 +119,12 @@ static void above_stopped(void *data, int64_t id, bool stopped)
 	name(&h->log, stopped ? "stopped" : "goes on", id);
 }
 
+static void above_refused(void *data, int64_t id)
+{
+	struct here *h = data;
+	name(&h->log, "refused", id);
+}
+
 static void above_waits(void *data, int64_t id, const char *reason)
 {
 	struct here *h = data;
@@ -145,6 +151,7 @@ static int set_up(void **state)
 	                                              .drained = above_drained,
 	                                              .exited = above_exited,
 	                                              .stopped = above_stopped,
+	                                              .refused = above_refused,
 	                                              .waits = above_waits });
 	h->sink = crew_sink(h->crew);
 	return 0;
@@ -288,6 +295,24 @@ static void a_shard_that_fails_ends_all(void **state)
 	expect(h, "broken: a RESULT from a shard 7;");
 }
 
+/* One that cannot be stopped: the others do not wait for it, stopped. */
+static void all_go_on_where_one_refuses(void **state)
+{
+	struct here *h = *state;
+	const struct launcher *l = crew_launcher(h->crew);
+	int64_t a = shard_id(JOB, 0), b = shard_id(JOB, 1);
+	assert_int_equal(begin(h, 2), ST_OK);
+	hello(h, a);
+	hello(h, b);
+	l->signal(l->data, JOB, LAUNCHER_STOP);
+	h->sink.stopped(h->sink.data, a, true);
+	expect(h, "start 7/0;start 7/1;START 7/0;START 7/1;up HELLO 7;stop 7/0;stop 7/1;");
+	h->sink.refused(h->sink.data, b);
+	expect(h, "continue 7/0;continue 7/1;refused 7;");
+	h->sink.stopped(h->sink.data, a, false);
+	expect(h, "");
+}
+
 static void it_is_stopped_when_all_are(void **state)
 {
 	struct here *h = *state;
@@ -332,6 +357,7 @@ int main(void)
 		T(a_lost_shard_is_begun_again_but_not_for_ever),
 		T(a_shard_that_fails_ends_all),
 		T(it_is_stopped_when_all_are),
+		T(all_go_on_where_one_refuses),
 		T(none_is_left_where_one_cannot_start),
 	};
 	return cmocka_run_group_tests_name("crew", tests, NULL, NULL);

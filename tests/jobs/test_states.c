@@ -42,6 +42,36 @@ static void sees_stops_from_outside(void **state)
 	assert_int_equal(fake_state(f, id), JOB_RUNNING);
 }
 
+/* Slurm does not always take the order: the job goes on, and its limits hold again. */
+static void a_stop_that_is_refused_is_forgotten(void **state)
+{
+	struct fake *f = *state;
+	int64_t id = fake_submit(f, 0, 1, 0);
+	fake_hello(f, id);
+	fake_refused(f, id); /* nobody asked */
+	assert_int_equal(fake_event(f, id, EV_SUSPEND), ST_OK);
+	assert_true(queue_stopping(f->q, id));
+	fake_refused(f, id);
+	assert_false(queue_stopping(f->q, id));
+	assert_int_equal(fake_state(f, id), JOB_RUNNING);
+	assert_string_equal(fake_reason(f, id), "");
+	assert_int_equal(fake_event(f, id, EV_SUSPEND), ST_OK);
+	fake_stopped(f, id, true);
+	assert_int_equal(fake_state(f, id), JOB_SUSPENDED);
+	assert_string_equal(fake_reason(f, id), "suspended by you");
+
+	id = fake_submit(f, 0, 1, 0); /* before HELLO, which then has its time again */
+	assert_int_equal(fake_event(f, id, EV_SUSPEND), ST_OK);
+	fake_wait(f, 100);
+	fake_refused(f, id);
+	fake_wait(f, 9);
+	assert_int_equal(fake_state(f, id), JOB_STARTING);
+	fake_wait(f, 2);
+	fake_exit(f, id, 0, 9);
+	fake_eof(f, id);
+	assert_int_equal(fake_state(f, id), JOB_FAILED);
+}
+
 static void suspends_before_hello(void **state)
 {
 	struct fake *f = *state;
@@ -261,6 +291,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		T(a_suspended_job_gives_its_slot_away),
 		T(sees_stops_from_outside),
+		T(a_stop_that_is_refused_is_forgotten),
 		T(suspends_before_hello),
 		T(kills_in_three_steps),
 		T(a_suspended_job_hears_its_kill),

@@ -1,10 +1,12 @@
 /* test_reading_child.c - foreign files in a child, which this program plays in bad ways, too. */
+#include <dirent.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -180,6 +182,44 @@ static void bad_children_cost_their_file_only(void **state)
 	}
 }
 
+static int count_open(void)
+{
+	DIR *folder = opendir("/proc/self/fd");
+	int n = 0;
+
+	assert_non_null(folder);
+	while (readdir(folder))
+		n++;
+	closedir(folder);
+	return n;
+}
+
+/* Neither descriptors nor children are left, whatever they did, and where there is room for none. */
+static void nothing_is_left_of_bad_children(void **state)
+{
+	enum { ROUNDS = 20 };
+	static const char *const names[] = { "crash", "nonsense", "liar", "refuse", "silent" };
+	const int open_before = count_open();
+	struct rlimit all, few;
+	struct model m;
+
+	for (int k = 0; k < ROUNDS; k++)
+		for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+			assert_int_not_equal(read_with(*state, names[i], NULL, &m), ST_OK);
+	getrlimit(RLIMIT_NOFILE, &all);
+	for (int more = 1; more < 12; more++) {
+		few = all;
+		few.rlim_cur = (rlim_t)open_before + (rlim_t)more;
+		setrlimit(RLIMIT_NOFILE, &few);
+		enum status st = read_with(*state, "silent", NULL, &m);
+		setrlimit(RLIMIT_NOFILE, &all);
+		assert_true(st == ST_RESOURCE || st == ST_INPUT);
+		assert_int_equal(((struct place *)*state)->said.n_errors, 1);
+	}
+	assert_int_equal(count_open(), open_before);
+	assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
+}
+
 /* Stopped by who is told how far it is, as the window is by Esc. */
 struct watcher {
 	atomic_bool stop;
@@ -315,6 +355,7 @@ int main(int argc, char **argv)
 {
 	const struct CMUnitTest tests[] = {
 		TEST(bad_children_cost_their_file_only), TEST(one_that_never_ends_can_be_stopped),
+		TEST(nothing_is_left_of_bad_children),   TEST(one_that_never_ends_can_be_stopped),
 		TEST(a_missing_program_is_told),         TEST(a_world_opens_what_is_left),
 		TEST(nothing_is_lost_on_the_way),
 	};
