@@ -14,10 +14,11 @@ static const double closed_tolerance = 1e-9;
  */
 struct pieces {
 	int order, spans;
-	double *breaks; /* owned, spans + 1 */
-	int *first;     /* owned: first control point of each span */
-	bool *joined;   /* owned: the span's end is the next one's start */
-	double *matrix; /* owned */
+	double *breaks;     /* owned, spans + 1 */
+	int *first;         /* owned: first control point of each span */
+	bool *joined;       /* owned: the span's end is the next one's start */
+	double *matrix;     /* owned */
+	long double *exact; /* owned; the same with more digits, where wanted */
 };
 
 static void pieces_finish(struct pieces *p)
@@ -26,26 +27,31 @@ static void pieces_finish(struct pieces *p)
 	free(p->first);
 	free(p->joined);
 	free(p->matrix);
+	free(p->exact);
 }
 
-static void blossom_row(int order, const double *knots, int s, double a, double b, int j,
-                        double *row)
-{
-	const int p = order - 1;
-	double d[ORDER_MAX][ORDER_MAX] = { { 0 } };
-	for (int i = 0; i <= p; i++)
-		d[i][i] = 1;
-	for (int r = 1; r <= p; r++) {
-		const double x = r <= p - j ? a : b;
-		for (int i = p; i >= r; i--) {
-			const double lo = knots[s - p + i], hi = knots[i + 1 + s - r];
-			const double t = (x - lo) / (hi - lo), rest = (hi - x) / (hi - lo);
-			for (int m = 0; m <= p; m++)
-				d[i][m] = rest * d[i - 1][m] + t * d[i][m];
-		}
+#define BLOSSOM_ROW(name, real)                                                                    \
+	static void name(int order, const double *knots, int s, double a, double b, int j,         \
+	                 real *row)                                                                \
+	{                                                                                          \
+		const int p = order - 1;                                                           \
+		real d[ORDER_MAX][ORDER_MAX] = { { 0 } };                                          \
+		for (int i = 0; i <= p; i++)                                                       \
+			d[i][i] = 1;                                                               \
+		for (int r = 1; r <= p; r++) {                                                     \
+			const real x = r <= p - j ? a : b;                                         \
+			for (int i = p; i >= r; i--) {                                             \
+				const real lo = knots[s - p + i], hi = knots[i + 1 + s - r];       \
+				const real t = (x - lo) / (hi - lo), rest = (hi - x) / (hi - lo);  \
+				for (int m = 0; m <= p; m++)                                       \
+					d[i][m] = rest * d[i - 1][m] + t * d[i][m];                \
+			}                                                                          \
+		}                                                                                  \
+		memcpy(row, d[p], sizeof *row *order);                                             \
 	}
-	memcpy(row, d[p], sizeof *row * order);
-}
+
+BLOSSOM_ROW(blossom_row, double)
+BLOSSOM_ROW(blossom_row_exact, long double)
 
 static enum status pieces_init(struct pieces *p, int order, int n, const double *knots,
                                const double domain[2])
@@ -89,6 +95,19 @@ static void pieces_convert(const struct pieces *p, int i, const double *q, size_
 	}
 }
 
+static enum status pieces_refine(struct pieces *p, const double *knots)
+{
+	p->exact = malloc(sizeof *p->exact * p->order * p->order * p->spans);
+	if (!p->exact)
+		return ST_RESOURCE;
+	for (int i = 0; i < p->spans; i++)
+		for (int j = 0; j < p->order; j++)
+			blossom_row_exact(p->order, knots, p->first[i] + p->order - 1, p->breaks[i],
+			                  p->breaks[i + 1], j,
+			                  p->exact + ((size_t)i * p->order + j) * p->order);
+	return ST_OK;
+}
+
 static bool points_meet(const double *a, const double *b, double size)
 {
 	for (int c = 0; c < 3; c++)
@@ -129,7 +148,32 @@ static bool border_meets(const struct bezier_net *b, int d)
 	return true;
 }
 
-enum status bezier_net_init(struct bezier_net *out, const struct surface *s)
+/* Patch i, j from sums with more digits, each of its numbers rounded once. */
+static void patch_exact(const struct pieces p[2], const struct surface *s, int i, int j,
+                        double *out)
+{
+	const int m = p[0].order, n = p[1].order;
+	const long double *u = p[0].exact + (size_t)i * m * m, *v = p[1].exact + (size_t)j * n * n;
+	const double *q = s->points + 4 * ((size_t)p[0].first[i] * s->n[1] + p[1].first[j]);
+	for (int k = 0; k < m; k++) {
+		long double row[ORDER_MAX][4] = { { 0 } };
+		for (int a = 0; a < m; a++)
+			for (int b = 0; b < n; b++)
+				for (int c = 0; c < 4; c++)
+					row[b][c] +=
+					        u[k * m + a] * q[4 * ((size_t)a * s->n[1] + b) + c];
+		for (int l = 0; l < n; l++, out += 4) {
+			long double sum[4] = { 0 };
+			for (int b = 0; b < n; b++)
+				for (int c = 0; c < 4; c++)
+					sum[c] += v[l * n + b] * row[b][c];
+			for (int c = 0; c < 4; c++)
+				out[c] = (double)sum[c];
+		}
+	}
+}
+
+static enum status net_make(struct bezier_net *out, const struct surface *s, bool exact)
 {
 	struct bezier_net b = { .order = { s->order[0], s->order[1] },
 		                .rational = s->rational,
@@ -139,6 +183,8 @@ enum status bezier_net_init(struct bezier_net *out, const struct surface *s)
 	enum status st = ST_OK;
 	for (int d = 0; d < 2 && st == ST_OK; d++)
 		st = pieces_init(&p[d], s->order[d], s->n[d], s->knots[d], s->domain[d]);
+	for (int d = 0; d < 2 && exact && st == ST_OK; d++)
+		st = pieces_refine(&p[d], s->knots[d]);
 	if (st != ST_OK)
 		goto out;
 	b.spans[0] = p[0].spans;
@@ -148,7 +194,10 @@ enum status bezier_net_init(struct bezier_net *out, const struct surface *s)
 	b.points = malloc(sizeof *b.points * bezier_patch_size(&b) * b.spans[0] * b.spans[1]);
 	if (!strip || !b.points)
 		goto out;
-	for (int i = 0; i < b.spans[0]; i++) {
+	for (int i = 0; exact && i < b.spans[0]; i++)
+		for (int j = 0; j < b.spans[1]; j++)
+			patch_exact(p, s, i, j, net_point(&b, i, j, 0, 0));
+	for (int i = 0; !exact && i < b.spans[0]; i++) {
 		for (int c = 0; c < s->n[1]; c++)
 			pieces_convert(&p[0], i, s->points + (size_t)4 * c, (size_t)4 * s->n[1],
 			               strip + (size_t)4 * c, (size_t)4 * s->n[1]);
@@ -178,6 +227,16 @@ out:
 	pieces_finish(&p[0]);
 	pieces_finish(&p[1]);
 	return st;
+}
+
+enum status bezier_net_init(struct bezier_net *out, const struct surface *s)
+{
+	return net_make(out, s, false);
+}
+
+enum status bezier_net_init_exact(struct bezier_net *out, const struct surface *s)
+{
+	return net_make(out, s, true);
 }
 
 void bezier_net_finish(struct bezier_net *b)

@@ -25,6 +25,10 @@ struct bezier_net {
  * part of the knots'. Errors: ST_RESOURCE.
  */
 enum status bezier_net_init(struct bezier_net *out, const struct surface *s);
+
+/* The same from sums of 64 binary digits: ten times slower, and each number is within two roundings of the size of the
+ * points that it is a mean of. For spans so narrow that their points' differences matter. */
+enum status bezier_net_init_exact(struct bezier_net *out, const struct surface *s);
 void bezier_net_finish(struct bezier_net *b);
 
 static inline size_t bezier_patch_size(const struct bezier_net *b) /* in doubles */

@@ -42,10 +42,10 @@ static void expect_shared(const struct bezier_net *b, int i, int j, int d, int n
 		                    q + 4 * (d == 0 ? m : m * ov), 4 * sizeof(double));
 }
 
-static void expect_net(const struct surface *s)
+static void expect_net(const struct surface *s, bool exact)
 {
 	struct bezier_net b;
-	assert_int_equal(bezier_net_init(&b, s), ST_OK);
+	assert_int_equal(exact ? bezier_net_init_exact(&b, s) : bezier_net_init(&b, s), ST_OK);
 	assert_true(b.breaks[0][0] == s->domain[0][0]);
 	assert_true(b.breaks[1][b.spans[1]] == s->domain[1][1]);
 	expect_same_place(s, &b);
@@ -74,9 +74,43 @@ static void nets_lie_on_surfaces(void **state)
 					t[0] += 0.13 * length;
 					t[1] -= 0.37 * length;
 				}
-				expect_net(&s);
+				expect_net(&s, false);
+				expect_net(&s, true);
 				surface_finish(&s);
 			}
+}
+
+/* The corner of a patch from the knots' blossom, in whole numbers: order 3, spans of 1 and 2 beside ones of a million. */
+static void exact_points_are_rounded_once(void **state)
+{
+	const double knots[] = { 0, 0, 0, 1000003, 1000004, 1000006, 2000017, 2000017, 2000017 };
+	const double height[] = { 7, 900001, 900007, 13, 900011, 5 };
+	struct surface s;
+	struct bezier_net b;
+	(void)state;
+	assert_int_equal(surface_init(&s, (const int[2]){ 3, 3 }, (const int[2]){ 6, 6 }), ST_OK);
+	for (int d = 0; d < 2; d++)
+		memcpy(s.knots[d], knots, sizeof knots);
+	for (int d = 0; d < 2; d++) {
+		s.domain[d][0] = 0;
+		s.domain[d][1] = 2000017;
+	}
+	for (int i = 0; i < 6; i++)
+		for (int j = 0; j < 6; j++)
+			surface_set_point(&s, i, j, vec3(height[i], height[j], 1), 1);
+	assert_int_equal(surface_check(&s, "slender", NULL), ST_OK);
+	assert_int_equal(bezier_net_init_exact(&b, &s), ST_OK);
+	for (int i = 1; i < b.spans[0]; i++) {
+		const double *k = knots + i + 1, *h = height + i; /* the knots about break i */
+		const long double start =
+		        ((long double)(k[2] - k[1]) * h[0] + (long double)(k[1] - k[0]) * h[1]) /
+		        (k[2] - k[0]);
+		for (int j = 0; j < b.spans[1]; j++)
+			assert_true(fabsl(bezier_patch(&b, i, j)[0] - start) <=
+			            1.2e-16L * fabsl(start));
+	}
+	bezier_net_finish(&b);
+	surface_finish(&s);
 }
 
 static void closed_ends_are_shared(void **state)
@@ -170,8 +204,11 @@ static void bernstein_laws(void **state)
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(nets_lie_on_surfaces),  cmocka_unit_test(closed_ends_are_shared),
-		cmocka_unit_test(a_break_stays_a_break), cmocka_unit_test(chains_lie_on_curves),
+		cmocka_unit_test(nets_lie_on_surfaces),
+		cmocka_unit_test(exact_points_are_rounded_once),
+		cmocka_unit_test(closed_ends_are_shared),
+		cmocka_unit_test(a_break_stays_a_break),
+		cmocka_unit_test(chains_lie_on_curves),
 		cmocka_unit_test(bernstein_laws),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -40,6 +40,30 @@ static void test_forms(void **state)
 	surface_finish(&s);
 }
 
+/* Knots that lie a ten-millionth apart make slivers of patches, whose points' rounding is most of their normals'. */
+static void test_slivers(void **state)
+{
+	(void)state;
+	const struct vec3 d = { 0.8, 0.36, 0.48 };
+	const double knots[] = { 0.3, 0.3 + 1e-7, 0.3 + 3e-7, 0.62, 0.62 + 1e-7 };
+	const int order[2] = { 4, 4 }, n[2] = { 8, 8 };
+	struct surface s = shape_surface(order, n, false, KNOTS_CLAMPED, 6), r, q;
+	assert_int_equal(surface_insert(&r, &s, 0, knots, 5), ST_OK);
+	assert_int_equal(surface_insert(&q, &r, 1, knots, 5), ST_OK);
+	for (int k = 0; k < 4; k++) {
+		const double value = cosine((const double[]){ 40, 70, 89.9, 90 }[k]);
+		struct level_result x;
+		struct count c = count_of(&s, LEVEL_ISOPHOTE, d, value);
+		assert_int_equal(shape_trace(&q, LEVEL_ISOPHOTE, d, value, 1e-5, &x, NULL), ST_OK);
+		assert_same(c, (struct count){ x.n_branches, x.n_closed, x.n_undecided, x.length });
+		assert_true(x.max_error <= 1e-5);
+		level_result_finish(&x);
+	}
+	surface_finish(&q);
+	surface_finish(&r);
+	surface_finish(&s);
+}
+
 /* The same shape at the highest orders: the degree of f is 98, rational 88. */
 static void test_high_order(void **state)
 {
@@ -118,6 +142,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_forms),
+		cmocka_unit_test(test_slivers),
 		cmocka_unit_test(test_high_order),
 		cmocka_unit_test(test_grid),
 	};

@@ -1,6 +1,7 @@
 /* level.c - a surface made ready for tracing one field, and its life. */
 #include "level_private.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,9 @@
 
 /* Spans narrower than this part of the domain are not meant. */
 static const double narrow_share = 1e-9;
+
+/* Where a span is narrower, points are made with more digits. */
+#define SLENDER_SHARE 1e-3
 
 const struct level_shape level_shapes[N_LEVEL_KINDS] = {
 	[LEVEL_PLANE] = { { 0, 0 }, { 1, 1 }, .line = true, .valued = true },
@@ -100,10 +104,44 @@ static void net_clean(struct bezier_net *net)
 	}
 }
 
+/* Spans so narrow that rounding of the points matters to the differences between them. */
+static bool slender(const struct bezier_net *net)
+{
+	for (int d = 0; d < 2; d++) {
+		const double *b = net->breaks[d], all = b[net->spans[d]] - b[0];
+		for (int i = 0; i < net->spans[d]; i++)
+			if (b[i + 1] - b[i] < SLENDER_SHARE * all)
+				return true;
+	}
+	return false;
+}
+
 /*
  * Bezier points are means of the control points, taken in each direction by a matrix: its numbers are
  * products of order - 1 ratios of knots, all positive, and so right to that many roundings each.
  */
+static double mean_steps(const int order[2])
+{
+	return 8.0 * (order[0] + order[1]) * UNIT_ROUNDOFF;
+}
+
+static enum status net_create(struct level_surface *s, const struct surface *from)
+{
+	enum status st = bezier_net_init(&s->net, from);
+	if (st != ST_OK)
+		return st;
+	net_clean(&s->net);
+	s->steps = mean_steps(s->net.order);
+	if (LDBL_MANT_DIG < 64 || !slender(&s->net))
+		return ST_OK;
+	bezier_net_finish(&s->net);
+	st = bezier_net_init_exact(&s->net, from);
+	if (st == ST_OK)
+		net_clean(&s->net);
+	s->steps = 2 * UNIT_ROUNDOFF;
+	return st;
+}
+
 static void reach_find(struct level_surface *s, const struct surface *from)
 {
 	for (int i = 0; i < from->n[0]; i++)
@@ -117,8 +155,7 @@ static void reach_find(struct level_surface *s, const struct surface *from)
 			s->extent[2] = larger(s->extent[2], w * fabs(p.z));
 			s->weight = larger(s->weight, w);
 		}
-	double steps = 8.0 * (from->order[0] + from->order[1]) * UNIT_ROUNDOFF;
-	s->steps = steps;
+	const double steps = s->steps;
 	s->of_points = (struct bound){ s->reach * (1 + steps), s->reach * steps };
 	s->of_weights =
 	        (struct bound){ s->weight * (1 + steps), s->net.rational ? s->weight * steps : 0 };
@@ -229,10 +266,9 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 	struct level_surface *s = calloc(1, sizeof *s);
 	if (!s)
 		return ST_RESOURCE;
-	enum status st = bezier_net_init(&s->net, from);
+	enum status st = net_create(s, from);
 	if (st != ST_OK)
 		goto fail;
-	net_clean(&s->net);
 	reach_find(s, from);
 	s->kind = field->kind;
 	if (level_oblique(field)) {
@@ -251,8 +287,8 @@ static enum status surface_create(struct level_surface **out, const struct surfa
 	}
 	const int spans = s->net.spans[0] * s->net.spans[1];
 	st = level_net_even(&s->net);
-	if (s->kind == LEVEL_CURVATURE || s->root || s->net.spans[0] * s->net.spans[1] > spans)
-		s->steps *= 2; /* halving adds roundings */
+	if (s->kind == LEVEL_CURVATURE || s->net.spans[0] * s->net.spans[1] > spans)
+		s->steps += mean_steps(s->net.order); /* halving adds roundings */
 	if (st == ST_OK && s->kind == LEVEL_CURVATURE)
 		st = curvature_prepare(s, field->quantity);
 	if (st == ST_OK)

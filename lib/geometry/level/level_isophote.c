@@ -14,7 +14,8 @@
 #include "level_root.h"
 #include "level_term.h"
 
-/* Where the length of the normal is not known to this share of it, squares are better. */
+/* Where the length of the normal is not known to this share of it, and adds more than the normal is off, squares are
+ * better. */
 #define LENGTH_SHARE 1e-6
 
 /* No more forms, none of more than twice the degree of s, are needed; for squares alone, of the normal's degree. */
@@ -144,7 +145,9 @@ static void oblique_make(struct tracer *t, const struct form n[3], double *out)
 	for (int k = 0; k < 3; k++)
 		form_add_square(&square, n[k], 1);
 	form_tighten(t, &square);
-	if (!level_root_form(t, &square, &root) || root.b.error > LENGTH_SHARE * root.b.size) {
+	const bool known = level_root_form(t, &square, &root);
+	const double enough = larger(LENGTH_SHARE * root.b.size, n[2].b.error / fabs(l->value));
+	if (!known || root.b.error > enough) {
 		t->bound = squares_make(t, n, out);
 		side_make(t, out + t->n_field);
 		return;

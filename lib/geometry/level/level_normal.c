@@ -52,12 +52,17 @@ static struct bound normal_bound(const struct maker *k, double hu, double hv)
 	level_patch_bounds(s, k->points, &points, &weights);
 	double moved = larger(points.size, away * weights.size);
 	double error = 2 * (points.error + weights.error * away) + 16 * UNIT_ROUNDOFF * moved;
+	double turned = 8 * UNIT_ROUNDOFF;
+	if (!s->net.rational) { /* differences are turned, not points, and their size counts */
+		error = 2 * points.error;
+		turned = 32 * UNIT_ROUNDOFF;
+	}
 	struct bound x[N_FORMS], w[N_FORMS], sum = { 0 };
 	int m = s->degree[0], n = s->degree[1];
 	for (int g = 0; g < N_FORMS; g++) {
 		double most[2];
 		most4(k->x[g], (size_t)(degree_of(s, g, 0) + 1) * (degree_of(s, g, 1) + 1), most);
-		x[g] = (struct bound){ most[0], h[g] * error + 8 * UNIT_ROUNDOFF * most[0] };
+		x[g] = (struct bound){ most[0], h[g] * error + turned * most[0] };
 		w[g] = (struct bound){ most[1],
 			               h[g] * weights.error + 8 * UNIT_ROUNDOFF * most[1] };
 	}
@@ -74,6 +79,16 @@ static struct bound normal_bound(const struct maker *k, double hu, double hv)
 	return sum;
 }
 
+/* Into the frame. */
+static void turn(const struct level_surface *s, double x[3])
+{
+	const double r[3] = { x[0], x[1], x[2] };
+	for (int d = 0; d < 3; d++) {
+		const double *f = s->frame[d];
+		x[d] = f[0] * r[0] + f[1] * r[1] + f[2] * r[2];
+	}
+}
+
 static void load(struct maker *k, int patch)
 {
 	const struct level_surface *s = k->s;
@@ -84,16 +99,12 @@ static void load(struct maker *k, int patch)
 	double hu = p * (a[net->spans[0]] - a[0]) / (a[i0 + 1] - a[i0]);
 	double hv = q * (b[net->spans[1]] - b[0]) / (b[j0 + 1] - b[j0]);
 	const double *c = k->points = bezier_patch(net, i0, j0);
-	const double *f0 = s->frame[0], *f1 = s->frame[1], *f2 = s->frame[2];
 	double *x = k->x[X], *u = k->x[U], *v = k->x[V];
-	for (int i = 0; i < (p + 1) * (q + 1); i++, c += 4) {
-		double r[3];
+	memcpy(x, c, sizeof *x * bezier_patch_size(net));
+	for (int i = 0; net->rational && i < (p + 1) * (q + 1); i++) {
 		for (int d = 0; d < 3; d++)
-			r[d] = c[d] - k->center[d] * c[3];
-		x[4 * i] = f0[0] * r[0] + f0[1] * r[1] + f0[2] * r[2];
-		x[4 * i + 1] = f1[0] * r[0] + f1[1] * r[1] + f1[2] * r[2];
-		x[4 * i + 2] = f2[0] * r[0] + f2[1] * r[1] + f2[2] * r[2];
-		x[4 * i + 3] = c[3];
+			x[4 * i + d] -= k->center[d] * x[4 * i + 3];
+		turn(s, x + 4 * i);
 	}
 	const size_t row = (size_t)4 * (q + 1);
 	for (size_t i = 0; i < row * p; i++)
@@ -101,6 +112,10 @@ static void load(struct maker *k, int patch)
 	for (int i = 0; i <= p; i++, x += 4)
 		for (int j = 0; j < 4 * q; j++, x++)
 			*v++ = hv * (x[4] - x[0]);
+	for (int i = 0; !net->rational && i < p * (q + 1); i++)
+		turn(s, k->x[U] + 4 * i);
+	for (int i = 0; !net->rational && i < (p + 1) * q; i++)
+		turn(s, k->x[V] + 4 * i);
 	k->normal = normal_bound(k, hu, hv);
 	for (int f = 0; f < N_FORMS; f++)
 		form_scale4(k->x[f], degree_of(s, f, 0), degree_of(s, f, 1), s->binomial, false);

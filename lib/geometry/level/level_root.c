@@ -189,7 +189,8 @@ enum status level_root_refine(struct level_surface *s, double share)
 {
 	const int n = s->root->degree;
 	const size_t before = (size_t)s->net.spans[0] * s->net.spans[1];
-	const size_t few = s->kind == LEVEL_ISOPHOTE ? PATCHES_FEW : 0;
+	const bool isophote = s->kind == LEVEL_ISOPHOTE; /* others count halving beforehand */
+	const size_t few = isophote ? PATCHES_FEW : 0;
 	double *room = malloc(sizeof *room * 2 * (n + 1) * (n + 1));
 	enum status st = room ? ST_OK : ST_RESOURCE;
 	for (int round = 0; st == ST_OK && round < ROUNDS_MAX; round++) {
@@ -211,8 +212,10 @@ enum status level_root_refine(struct level_surface *s, double share)
 		const bool many = (patches > PATCHES_TIMES * before && patches > few) ||
 		                  patches > PATCHES_MAX;
 		for (int d = 1; st == ST_OK && d >= 0 && !many; d--)
-			if (any[d])
+			if (any[d]) {
 				st = level_net_halve(&s->net, d, halve + (d == 0 ? 0 : spans[0]));
+				s->steps += isophote ? (s->net.order[d] - 1) * UNIT_ROUNDOFF : 0;
+			}
 		free(halve);
 		if (many || !(any[0] || any[1]))
 			break;
