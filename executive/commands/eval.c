@@ -69,7 +69,7 @@ static void add_row(struct text *t, const char *name, const double *x, int n)
 {
 	text_addf(t, "  %-9s", name);
 	for (int k = 0; k < n; k++)
-		if (isnan(x[k]))
+		if (!isfinite(x[k]))
 			text_addf(t, " %22s", "-");
 		else
 			text_addf(t, " %22.15g", x[k]);

@@ -211,7 +211,12 @@ static void say(const struct mender *m)
 		report_info(m->r,
 		            "%s: %d curves of its trimming loops turned about, %d put in order",
 		            m->what, m->turned, m->moved);
-	if (m->cut)
+	if (m->cut && m->beyond > 0)
+		report_info(m->r,
+		            "%s: %d trimming loops cut at the seam or the border, which they leave "
+		            "by up to %.3g",
+		            m->what, m->cut, m->beyond);
+	else if (m->cut)
 		report_info(m->r, "%s: %d trimming loops cut at the seam or the border", m->what,
 		            m->cut);
 }

@@ -17,6 +17,7 @@ struct mender {
 	int loop;                     /* at hand, from 1 */
 	int gaps, turned, moved, cut; /* what was mended */
 	double largest;               /* gap, in space */
+	double beyond;                /* how far a loop leaves an open border, in space */
 };
 
 /* A curve's end (0: start, 1: end; clamped), read, set, and all of it moved in direction d. */

@@ -234,6 +234,28 @@ static enum status walk(const struct mender *m, const struct parts *p, struct ru
 	return st;
 }
 
+/* How far parts outside a domain that is not closed leave it, by the slope at its border. */
+static void measure_beyond(struct mender *m, const struct parts *p, int d)
+{
+	enum { LOOKS = 16 };
+	const double(*domain)[2] = m->s->domain;
+	for (int i = 0; i < p->n; i++) {
+		const struct curve *c = &p->list[i].curve;
+		for (int k = 0; p->list[i].strip != 0 && k <= LOOKS; k++) {
+			const double t = (double)k / LOOKS;
+			const struct vec3 at =
+			        curve_point(c, (1 - t) * c->domain[0] + t * c->domain[1]);
+			const double uv[2] = { at.x, at.y };
+			double in[2];
+			struct vec3 point, slope[2];
+			for (int e = 0; e < 2; e++)
+				in[e] = fmin(fmax(uv[e], domain[e][0]), domain[e][1]);
+			surface_tangents(m->s, in[0], in[1], &point, &slope[0], &slope[1]);
+			m->beyond = fmax(m->beyond, fabs(uv[d] - in[d]) * vec3_length(slope[d]));
+		}
+	}
+}
+
 enum status trim_seam_cut(struct mender *m, const struct trim_loop *loop, int d, struct trim *out)
 {
 	struct parts p = { 0 };
@@ -253,6 +275,8 @@ enum status trim_seam_cut(struct mender *m, const struct trim_loop *loop, int d,
 		trim_loop_finish(&l);
 	} else {
 		m->cut++;
+		if (!m->closed[d])
+			measure_beyond(m, &p, d);
 		st = link_runs(m, runs, n);
 		for (int i = 0; i < n && st == ST_OK; i++)
 			if (!runs[i].done && (m->closed[d] || runs[i].strip == 0))

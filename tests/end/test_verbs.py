@@ -145,4 +145,15 @@ def test_a_limit_of_files_sizes_is_a_sentence(project):
     assert not os.path.exists(project.path("one.igs")) and not os.listdir(project.path("all"))
 
 
+def test_eval_shows_no_infinite_number(project):
+    steep = os.path.join(project.folder, "steep.base")
+    with open(steep, "w") as f:
+        f.write("batten base 1\ntype curve\norder 3\nncontpts 3\nknots 0 0 0 1 1 1\n"
+                "contpts 0 0 0 1e-300  1e300 1e300 0 1e300  2 0 0 1\nend\n")
+    point = project.json("batten", "eval", steep, "0")["points"][0]
+    assert point["point"] == [0, 0, 0] and point["d1"] is None, point
+    text = project.run("batten", "eval", steep, "0").stdout
+    assert "inf" not in text and re.search(r"d1 +- +- +0", text), text
+
+
 end.main()

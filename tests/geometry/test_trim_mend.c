@@ -1,4 +1,6 @@
 /* test_trim_mend.c - loops as files give them, and what is made of them. */
+#include <stdio.h>
+
 #include "cmocka_all.h"
 #include "trim_shapes.h"
 
@@ -117,6 +119,35 @@ static void what_leaves_a_little_is_cut_off(void **state)
 		trim_add_ellipse(&t, true, 0.5, 0.5, r, r, 0.2 * k);
 		mend_loosely(&t, &s, 1e-6);
 		assert_float_equal(area_of(&t, &s), M_PI * r * r - 4 * segment, 1e-9);
+		trim_finish(&t);
+	}
+	surface_finish(&s);
+}
+
+static void keep_info(void *data, enum report_level level, enum status st, const char *text)
+{
+	(void)st;
+	if (level == REPORT_INFO)
+		snprintf(data, 256, "%s", text);
+}
+
+/* By how much a loop leaves an open border is told, in space. */
+static void what_leaves_is_told(void **state)
+{
+	struct surface s = shape_plane(3, 3);
+	(void)state;
+	for (int k = 0; k < 6; k++) {
+		static const char before[] =
+		        "cut at the seam or the border, which they leave by up to ";
+		char said[256] = "";
+		const struct report r = { keep_info, said };
+		struct trim t = { 0 };
+		const double out = pow(10, -2 - 0.5 * k);
+		trim_add_ellipse(&t, true, 0.5, 0.5, 0.5 + out / 3, 0.45, 0);
+		assert_int_equal(trim_mend(&t, &s, 1e-7, "face", &r), ST_OK);
+		const char *found = strstr(said, before);
+		if (!found || fabs(atof(found + sizeof before - 1) / out - 1) > 0.02)
+			fail_msg("%g: %s", out, said);
 		trim_finish(&t);
 	}
 	surface_finish(&s);
@@ -286,6 +317,7 @@ int main(void)
 		cmocka_unit_test(order_direction_and_gaps),
 		cmocka_unit_test(what_is_near_the_border_lies_on_it),
 		cmocka_unit_test(what_leaves_a_little_is_cut_off),
+		cmocka_unit_test(what_leaves_is_told),
 		cmocka_unit_test(holes_over_seams),
 		cmocka_unit_test(loops_round_a_tube),
 		cmocka_unit_test(seams_and_poles_in_loops),
