@@ -36,7 +36,7 @@ struct cutter {
 	int order[2];
 	/* Bernstein to Chebyshev coefficients on [-1, 1]: to[d][k * order + i] */
 	double to[2][ORDER_MAX * ORDER_MAX];
-	double *nets;      /* owned; one net a level */
+	double *nets;      /* owned; two nets a level */
 	double *transform; /* owned; 4 order[0] order[1] */
 };
 
@@ -234,21 +234,19 @@ static void net_split(const struct cutter *c, const double *net, int d, double *
 {
 	int n = c->order[d], rows = c->order[1 - d];
 	int step = d ? 4 : 4 * c->order[1], row = d ? 4 * c->order[1] : 4;
-	double p[ORDER_MAX];
+	double p[ORDER_MAX][4];
 
-	for (int k = 0; k < rows; k++)
-		for (int e = 0; e < 4; e++) {
-			for (int i = 0; i < n; i++)
-				p[i] = net[k * row + i * step + e];
-			for (int r = 0; r < n; r++) {
-				if (lower)
-					lower[k * row + r * step + e] = p[0];
-				if (upper)
-					upper[k * row + (n - 1 - r) * step + e] = p[n - 1 - r];
-				for (int i = 0; i < n - 1 - r; i++)
-					p[i] = (p[i] + p[i + 1]) / 2;
-			}
+	for (int k = 0; k < rows; k++) {
+		for (int i = 0; i < n; i++)
+			memcpy(p[i], &net[k * row + i * step], sizeof p[i]);
+		for (int r = 0; r < n; r++) {
+			memcpy(&lower[k * row + r * step], p[0], sizeof p[0]);
+			memcpy(&upper[k * row + (n - 1 - r) * step], p[n - 1 - r], sizeof p[0]);
+			for (int i = 0; i < n - 1 - r; i++)
+				for (int e = 0; e < 4; e++)
+					p[i][e] = (p[i][e] + p[i + 1][e]) / 2;
 		}
+	}
 }
 
 static enum status cut_room(struct ray_cut *c)
@@ -391,16 +389,17 @@ static enum status cut_net(struct cutter *c, const double *net, const double fro
 		return cut_leaf(c, &b, net, from, step, left);
 
 	size_t size = (size_t)4 * c->order[0] * c->order[1];
-	double *child = c->nets + size * (depth[0] + depth[1]);
+	double *child = c->nets + 2 * size * (depth[0] + depth[1]);
+	net_split(c, net, d, child, child + size);
 	for (int half = 0; half < 2; half++) {
 		double child_from[2] = { from[0], from[1] }, child_step[2] = { step[0], step[1] };
 		int child_depth[2] = { depth[0], depth[1] };
 
-		net_split(c, net, d, half ? NULL : child, half ? child : NULL);
 		child_step[d] /= 2;
 		child_from[d] += half * child_step[d];
 		child_depth[d]++;
-		enum status st = cut_net(c, child, child_from, child_step, child_depth, left);
+		enum status st =
+		        cut_net(c, child + half * size, child_from, child_step, child_depth, left);
 		if (st != ST_OK)
 			return st;
 	}
@@ -422,7 +421,7 @@ enum status ray_cut_patch(struct ray_cut *cut, uint32_t patch)
 		c->order[d] = p->order[d];
 		chebyshev_matrix(c->order[d], c->to[d]);
 	}
-	c->nets = malloc(sizeof(double) * size * 2 * CUT_DEPTH);
+	c->nets = malloc(sizeof(double) * size * 2 * 2 * CUT_DEPTH);
 	c->transform = malloc(sizeof(double) * size);
 	if (c->nets && c->transform)
 		st = cut_net(c, p->points, (const double[2]){ 0, 0 }, (const double[2]){ 1, 1 },
