@@ -19,35 +19,6 @@
 
 enum { ROUNDS = 5 };
 
-static void report_accuracy(const struct scene *s, const struct frame *f, const float *mesh_depth,
-                            int steps)
-{
-	size_t n = 0, wrong = 0;
-	double *error = malloc(sizeof *error * SIZE * SIZE);
-
-	if (!error)
-		abort();
-	for (int y = 0; y < SIZE; y++)
-		for (int x = 0; x < SIZE; x++) {
-			size_t p = (size_t)y * SIZE + x;
-			const struct ray_hit *h = &f->hits[p];
-
-			wrong += (h->surface >= 0) != (bool)isfinite(mesh_depth[p]);
-			if (h->surface < 0)
-				continue;
-			struct vec3 on_ray =
-			        vec3_along(f->view->eye, h->t, view_direction(f->view, x, y));
-			struct vec3 on_surface = surface_point(s->surfaces[h->surface], h->u, h->v);
-			error[n++] = vec3_length(vec3_sub(on_ray, on_surface)) / f->view->size;
-		}
-	double middle = n ? bench_median(error, n) : 0; /* sorts */
-	printf("  hits on surface and ray: median %.1e, worst %.1e of the size\n", middle,
-	       n ? error[n - 1] : 0);
-	printf("  mask against triangles %dx%d: %.1f pixels per million differ\n", steps, steps,
-	       (double)wrong * 1e6 / (SIZE * SIZE));
-	free(error);
-}
-
 static void print_row(const char *scene, const char *what, const char *unit, double value,
                       double target, bool less)
 {
@@ -60,6 +31,44 @@ static void print_row(const char *scene, const char *what, const char *unit, dou
 	                                 .ours = value,
 	                                 .target = target,
 	                                 .less = less });
+}
+
+/* How far the hits of a view lie from surface and ray, against the model's size. */
+static void report_errors(const struct scene *s, const struct frame *f)
+{
+	size_t n = 0;
+	double *error = bench_room((size_t)SIZE * SIZE);
+
+	for (int y = 0; y < SIZE; y++)
+		for (int x = 0; x < SIZE; x++) {
+			const struct ray_hit *h = &f->hits[(size_t)y * SIZE + x];
+
+			if (h->surface < 0)
+				continue;
+			struct vec3 on_ray =
+			        vec3_along(f->view->eye, h->t, view_direction(f->view, x, y));
+			struct vec3 on_surface = surface_point(s->surfaces[h->surface], h->u, h->v);
+			error[n++] = vec3_length(vec3_sub(on_ray, on_surface)) / f->view->size;
+		}
+	if (!n)
+		bench_fail("no ray hits");
+	print_row(s->name, "median error of a hit / size", "", bench_median(error, n), 1e-8, true);
+	printf("  the worst %.1e\n", error[n - 1]);
+	free(error);
+}
+
+/* Pixels that one of surface and fine triangles covers, and the other does not. */
+static void report_mask(const struct scene *s, const struct frame *f, const float *mesh_depth,
+                        int steps)
+{
+	size_t wrong = 0;
+	char what[80];
+
+	for (size_t p = 0; p < (size_t)SIZE * SIZE; p++)
+		wrong += (f->hits[p].surface >= 0) != (bool)isfinite(mesh_depth[p]);
+	snprintf(what, sizeof what, "pixels of the mask other than of triangles %dx%d", steps,
+	         steps);
+	print_row(s->name, what, "per million", (double)wrong * 1e6 / (SIZE * SIZE), 5, true);
 }
 
 /* Packets against the peer's; the goal is a part of its speed. */
@@ -134,11 +143,18 @@ static double run(const struct scene *s, bool accuracy)
 	float *depth = malloc(sizeof *depth * SIZE * SIZE);
 	struct ray_hit *hits = malloc(sizeof *hits * SIZE * SIZE);
 
-	double start = bench_cpu();
-	if (!image || !depth || !hits ||
-	    ray_scene_create(&scene, s->surfaces, s->n, 0, NULL) != ST_OK)
-		abort();
-	prepare[2] = bench_cpu() - start;
+	if (!image || !depth || !hits)
+		bench_fail("out of memory");
+	double start, creating[ROUNDS];
+	for (int round = 0; round < ROUNDS; round++) {
+		start = bench_cpu();
+		if (ray_scene_create(&scene, s->surfaces, s->n, 0, NULL) != ST_OK)
+			bench_fail("cannot prepare a scene");
+		creating[round] = bench_cpu() - start;
+		if (round + 1 < ROUNDS)
+			ray_scene_destroy(scene);
+	}
+	prepare[2] = bench_median(creating, ROUNDS);
 	struct box box = ray_scene_box(scene);
 	struct view view = view_fit(&box);
 	struct frame frame = { .scene = scene, .view = &view, .image = image, .depth = depth };
@@ -187,14 +203,16 @@ static double run(const struct scene *s, bool accuracy)
 	run_pov(s, &view, (double)rays / speed / 1e6);
 	for (int k = 0; k < 2; k++)
 		mesh_finish(&mesh[k]);
-	if (accuracy) {
+	frame.hits = hits;
+	frame_run(&frame, 1);
+	report_errors(s, &frame);
+	/* of surfaces with many spans that takes much memory and time */
+	if (accuracy || s->n > 1) {
 		int fine = s->n > 1 ? 256 : 128;
 
-		frame.hits = hits;
-		frame_run(&frame, 1);
 		mesh_build(&mesh[0], s, fine, true);
 		mesh_frame(&mesh[0], &view, image, depth);
-		report_accuracy(s, &frame, depth, fine);
+		report_mask(s, &frame, depth, fine);
 		mesh_finish(&mesh[0]);
 	}
 	ray_scene_destroy(scene);
@@ -255,7 +273,7 @@ static bool read_teapot(struct model *m, struct scene *s)
 	return true;
 }
 
-/* `--accuracy` compares the mask with fine triangles, too (takes memory and time). */
+/* `--accuracy` compares every mask with fine triangles (takes memory and time). */
 int main(int argc, char **argv)
 {
 	bool accuracy = argc > 1 && !strcmp(argv[1], "--accuracy");

@@ -15,9 +15,10 @@
 #include "file.h"
 #include "iges.h"
 #include "message.h"
+#include "part.h"
 #include "shapes.h"
 
-enum { ROUNDS = 5, LONG_ROUNDS = 3, TEXT = 4096, SHARDS = 2, FIRST_OUTPUT = 4 };
+enum { ROUNDS = 5, LONG_ROUNDS = 3, TEXT = 4096, SHARDS = 2, FIRST_OUTPUT = 4, KILLS = 5 };
 
 /* What a worker is asked for. */
 struct task {
@@ -161,9 +162,12 @@ static void run_end(struct run *r)
 
 static void clear(int from)
 {
-	static const char *const names[] = { "hull.igs",  "job-1.json",  "job0.json",
-		                             "job1.json", "job-1.part",  "job0.part",
-		                             "job1.part", "out.map.exr", "out.shade.exr" };
+	static const char *const names[] = {
+		"hull.igs",       "job-1.json",    "job0.json",        "job1.json",
+		"job-1.part",     "job0.part",     "job1.part",        "out.map.exr",
+		"out.shade.exr",  "out.trace.exr", "job-1.part.ahead", "job0.part.ahead",
+		"job1.part.ahead"
+	};
 	char path[300];
 	for (size_t i = from; i < sizeof names / sizeof *names; i++) {
 		snprintf(path, sizeof path, "%s/%s", folder, names[i]);
@@ -204,8 +208,89 @@ static void first_part(const struct task *t)
 	                                 .ours = bench_median(gone, ROUNDS),
 	                                 .target = 100,
 	                                 .less = true });
+	if (!strcmp(t->worker, "raytrace"))
+		bench_print(&(struct bench_row){ .row = "rays",
+		                                 .what = "answer to stop, with the part file left",
+		                                 .unit = "ms",
+		                                 .ours = bench_median(gone, ROUNDS),
+		                                 .target = 200,
+		                                 .less = true });
 	printf("  worst %.1f and %.1f ms; %.0f MiB given back\n", first[ROUNDS - 1],
 	       gone[ROUNDS - 1], peak);
+}
+
+/* Units that a part file holds. */
+static size_t units_in(const char *part)
+{
+	struct part_glance g;
+	size_t n = 0;
+	if (part_look(&g, part, NULL) != ST_OK)
+		bench_fail("cannot read what a killed worker left");
+	bool *seen = calloc(g.n_units, sizeof *seen);
+	if (!seen)
+		bench_fail("out of memory");
+	for (size_t i = 0; i < g.n; i++) {
+		n += !seen[g.found[i].unit];
+		seen[g.found[i].unit] = true;
+	}
+	free(seen);
+	part_glance_finish(&g);
+	return n;
+}
+
+/* Kill it once it has told of so many units; how many it has told of in all. */
+static size_t run_kill(const struct task *t, size_t after)
+{
+	struct run r;
+	size_t told = 0;
+	run_start(&r, t);
+	for (uint32_t type; (type = next_packet(&r)) != 0;)
+		if (type == MESSAGE_UNIT && ++told == after)
+			kill(r.pid, SIGKILL);
+	run_end(&r);
+	return told;
+}
+
+static void run_whole(const struct task *t, char **bytes, size_t *n)
+{
+	struct run r;
+	char path[300];
+	run_start(&r, t);
+	run_end(&r);
+	snprintf(path, sizeof path, "%s/out.trace.exr", folder);
+	if (file_read(path, UINT64_MAX, bytes, n, NULL) != ST_OK)
+		bench_fail("a worker leaves no image");
+}
+
+/* Kill -9 amid the work, and the same work again. */
+static void killed(void)
+{
+	const struct task task = { "raytrace", "{\"size\":\"1000x1000\"}", 2, -1 };
+	char *good, *bytes, part[300];
+	size_t n_good, n, told = 0, kept = 0, same = 0;
+	run_whole(&task, &good, &n_good);
+	clear(FIRST_OUTPUT);
+	snprintf(part, sizeof part, "%s/job-1.part", folder);
+	for (size_t k = 0; k < KILLS; k++) {
+		const size_t now = run_kill(&task, 20 + 40 * k), left = units_in(part);
+		told += now;
+		kept += left < now ? left : now;
+		run_whole(&task, &bytes, &n);
+		same += n == n_good && !memcmp(bytes, good, n);
+		free(bytes);
+		clear(FIRST_OUTPUT);
+	}
+	free(good);
+	bench_print(&(struct bench_row){ .row = "rays",
+	                                 .what = "finished units that kill -9 leaves",
+	                                 .unit = "%",
+	                                 .ours = 100 * (double)kept / (double)told,
+	                                 .target = 100 });
+	bench_print(&(struct bench_row){ .row = "rays",
+	                                 .what = "resumed images with the bytes of an undisturbed",
+	                                 .unit = "%",
+	                                 .ours = 100 * (double)same / KILLS,
+	                                 .target = 100 });
 }
 
 struct cost {
@@ -276,6 +361,7 @@ int main(int argc, char **argv)
 	make_hull(path);
 	for (size_t i = 0; i < sizeof first_tasks / sizeof *first_tasks; i++)
 		first_part(&first_tasks[i]);
+	killed();
 	gain("3", "2 processes", "curvature", &curvature[0], shards, SHARDS);
 	gain("-", "2 threads", "curvature", &curvature[0], &curvature[1], 1);
 	gain("-", "2 threads", "shading", &shading[0], &shading[1], 1);
