@@ -40,13 +40,14 @@ struct whole_file {
 /* Errors: ST_INPUT (no such folder, not writable), ST_RESOURCE. */
 enum status whole_file_create(struct whole_file *f, const char *path, const struct report *r);
 
-/* Put the file in place, or on failure (full disk) take it away. Ends f either way. */
+/* Put the file in place, or on failure take it away. Ends f either way. Errors: ST_RESOURCE (full disk),
+ * ST_INPUT (it may not stand there). */
 enum status whole_file_commit(struct whole_file *f, const struct report *r);
 
 /* Take the temporary file away. A zeroed or ended f is fine. */
 void whole_file_abandon(struct whole_file *f);
 
-/* Create, write n bytes, commit. */
+/* Create, write n bytes, commit. Errors: of both. */
 enum status file_write(const char *path, const void *bytes, size_t n, const struct report *r);
 
 /* A file's time (nanoseconds), size (bytes) and i-node: one that has the same has not changed. False: it is
@@ -61,7 +62,8 @@ unsigned file_mask(void);
  * goes into it. */
 void file_hold_standard(void);
 
-/* Make a folder and those above it that are missing; mode as for mkdir. */
+/* Make a folder and those above it that are missing; mode as for mkdir. One that is there is fine.
+ * Errors: ST_INPUT (a part of the path is no folder, not writable), ST_RESOURCE. */
 enum status folder_make(const char *path, unsigned mode, const struct report *r);
 
 #endif

@@ -33,7 +33,8 @@ enum status json_parse_object(const char *text, size_t n, const char *what, json
 /* Append v, indented as it stands within `depth` brackets. */
 void json_write_at(struct text *t, const json_t *v, int depth);
 
-/* Write o with shortest round-trip numbers, members in order of insertion; caller frees. */
+/* Write o with shortest round-trip numbers, members in order of insertion. Caller frees; NULL:
+ * memory ran out. */
 char *json_write(const json_t *o, bool indented);
 
 #endif

@@ -13,7 +13,7 @@ struct text {
 
 /* A zeroed struct text is an empty one. */
 void text_finish(struct text *t);
-void text_reset(struct text *t); /* empty again, room kept */
+void text_reset(struct text *t); /* empty again and not failed, room kept */
 
 void text_add(struct text *t, const char *s);
 void text_add_bytes(struct text *t, const void *p, size_t n);

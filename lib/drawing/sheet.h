@@ -12,7 +12,9 @@ struct sheet {
 	int width, height;
 };
 
-/* width 0: nothing to draw on yet, but texts can be measured. */
+/* width and height in px; width 0: nothing to draw on yet, but texts can be measured. `path`, here and below, is
+ * the picture's in sentences and where it is written. Errors: ST_RESOURCE (no memory, larger than a
+ * picture can be), on writing also ST_INPUT (folder missing, not writable). */
 enum status sheet_init(struct sheet *s, const char *path, double width, double height,
                        const struct report *r);
 void sheet_finish(struct sheet *s); /* a zeroed one is fine */

@@ -9,7 +9,9 @@
 /* True where the bytes begin as a .base file does. */
 bool base_recognise(const char *bytes, size_t n);
 
-/* Errors: ST_INPUT "FILE:LINE:COLUMN: found X, expected Y", ST_RESOURCE, ST_CANCELLED. */
+/* Into a model that model_init has made; the caller finishes it, after a failure too. This holds of every
+ * format's parser. p may be NULL. `name` is the file's in sentences.
+ * Errors: ST_INPUT "FILE:LINE:COLUMN: found X, expected Y", ST_RESOURCE, ST_CANCELLED. */
 enum status base_parse(struct model *m, const char *bytes, size_t n, const char *name,
                        const struct progress *p, const struct report *r);
 
@@ -20,7 +22,7 @@ void base_format(const struct model *m, struct text *out);
  * entities, piece k the kth entity. */
 void base_format_piece(const struct model *m, int piece, struct text *out);
 
-/* Write as a whole file. */
+/* Write as a whole file. Errors: ST_INPUT (no such folder, not writable), ST_RESOURCE. */
 enum status base_write(const struct model *m, const char *path, const struct report *r);
 
 /* One entity alone with the model's unit: what `.batten/inputs/HASH.base` holds. */

@@ -28,7 +28,10 @@ struct mesh_figures {
 
 void mesh_figures_finish(struct mesh_figures *f); /* a zeroed one is fine */
 
-/* All surfaces of a model, trimmed where they have trims; parts of the mesh in their order. */
+/* All surfaces of a model, trimmed where they have trims; parts of the mesh in their order. *out is the
+ * caller's to finish, after a failure too.
+ * Errors: ST_INPUT (nothing that could be seen as an area, sizes beyond numbers, not writable), ST_RESOURCE
+ * (also: more than TESSELLATE_MOST triangles), ST_CANCELLED. */
 enum status export_mesh(const struct model *m, mesh_writer *write, const char *path,
                         const struct mesh_wishes *w, struct mesh_figures *out,
                         const struct report *r);

@@ -42,8 +42,8 @@ size_t exr_tiles(const struct exr_image *im);
 void exr_tile_window(const struct exr_image *im, size_t i, int *x, int *y, int *w, int *h);
 
 /*
- * Make tile i's chunk, as it stands in a file: planes[c] holds the tile's values of channel c, w x h floats without gaps; half
- * channels are converted to nearest, ties to even. The bytes are appended to *out. Level 2 zip, or
+ * Make tile i's chunk, as it stands in a file: planes[c] holds the tile's values of channel c, w x h
+ * floats without gaps; half channels are converted to nearest, ties to even. The bytes are appended to *out. Level 2 zip, or
  * as they are where that saves less than a tenth. The bytes depend on nothing but size and values.
  * Thread: any. Errors: ST_RESOURCE.
  */

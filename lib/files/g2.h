@@ -22,7 +22,8 @@ enum status g2_parse(struct model *m, const char *bytes, size_t n, const char *n
 void g2_format(const struct model *m, struct text *out);
 bool g2_holds(const struct entity *e);
 
-/* Write as a whole file. */
+/* Write as a whole file; that trims are left out is a warning. Errors: ST_INPUT (no such folder, not
+ * writable), ST_RESOURCE. */
 enum status g2_write(const struct model *m, const char *path, const struct report *r);
 
 #endif

@@ -5,6 +5,7 @@
 #include "model.h"
 #include "text.h"
 
+/* True where the first line that is not empty is one that IGES files begin with. */
 bool iges_recognise(const char *bytes, size_t n);
 
 /*

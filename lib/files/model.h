@@ -114,6 +114,8 @@ void model_finish(struct model *m);
 
 /* Append an entity (moved in: *e is empty afterwards, also on failure). Errors: ST_RESOURCE. */
 enum status model_add(struct model *m, struct entity *e);
+/* Count one that was not read, keep a warning, set or replace an attribute; texts are copied.
+ * Errors: ST_RESOURCE. */
 enum status model_skip(struct model *m, int type, int de, const char *reason);
 enum status model_warn(struct model *m, const char *format, ...)
         __attribute__((format(printf, 2, 3)));
@@ -145,7 +147,7 @@ struct progress {
 enum status progress_step(const struct progress *p, double fraction);
 
 /*
- * Read any geometry file by its content: .base and its kin, IGES. `p` may be NULL.
+ * Read any geometry file by its content: .base and its kin, IGES, .g2, points in columns. `p` may be NULL.
  * m is initialised here; on success the caller finishes it, on failure it is empty.
  * Errors: ST_INPUT (missing, unknown format, nothing could be read, cut short), ST_RESOURCE,
  * ST_CANCELLED.

@@ -13,8 +13,8 @@ struct box box_empty(void);
 bool box_is_empty(const struct box *b);
 void box_add_point(struct box *b, struct vec3 p);
 void box_add_box(struct box *b, const struct box *other);
-struct vec3 box_center(const struct box *b);
-double box_diagonal(const struct box *b);
+struct vec3 box_center(const struct box *b); /* not of an empty one: it has none */
+double box_diagonal(const struct box *b);    /* length; 0 of an empty one */
 
 /* Box of the part inside the domain, larger than the true one by at most tolerance a side
  * (absolute; 0: as tight as rounding allows within 1e-12 of the size, 1e-9 where the extreme is held

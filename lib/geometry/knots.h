@@ -46,7 +46,7 @@ int knots_domain_span(int order, int n, const double *knots, const double domain
  */
 void knots_basis(int order, const double *knots, int s, double t, int d, double *out);
 
-/* Number of equal knots at t. */
+/* How many knots are equal to t; 0: none is. */
 int knots_multiplicity(int order, int n, const double *knots, double t);
 
 /*

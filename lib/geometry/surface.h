@@ -17,6 +17,7 @@ struct surface {
 	double *points;      /* owned, n[0] x n[1] x 4 */
 };
 
+/* Room for a surface, knots and points zero, domain empty. Errors: ST_RESOURCE. */
 enum status surface_init(struct surface *s, const int order[2], const int n[2]);
 void surface_finish(struct surface *s); /* a zeroed one is fine */
 enum status surface_copy(struct surface *out, const struct surface *s);
@@ -24,8 +25,9 @@ enum status surface_copy(struct surface *out, const struct surface *s);
 /* As curve_check; a surface whose points are all one point is an error too. */
 enum status surface_check(struct surface *s, const char *what, const struct report *r);
 
+/* Point (i, j) as Cartesian coordinates and weight. */
 void surface_set_point(struct surface *s, int i, int j, struct vec3 p, double w);
-struct vec3 surface_get_point(const struct surface *s, int i, int j, double *w);
+struct vec3 surface_get_point(const struct surface *s, int i, int j, double *w); /* w may be NULL */
 
 /*
  * Point and partial derivatives with k + l <= d: out[k * (d + 1) + l] is d^(k+l)S / du^k dv^l;

@@ -2,7 +2,9 @@
  *
  * A loop is a closed chain of curves in the surface's u,v plane, each starting where the one before
  * ends. A point belongs to the trimmed surface if it is inside an outer loop (or there is none: the
- * whole domain) and outside every inner one.
+ * whole domain) and outside every inner one. trim_test has it so also where loops cross or lie upon each
+ * other; trim_area may be wrong where they cross; tessellate() fills what all loops go around an odd
+ * number of times.
  */
 #ifndef BATTEN_TRIM_H
 #define BATTEN_TRIM_H
