@@ -1,14 +1,16 @@
 /* session_read.c - the session as the last one left it. What is no longer there is told and left out. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "file.h"
 #include "json.h"
 #include "path.h"
+#include "text.h"
 #include "world_private.h"
 
-enum { SESSION_MAX = 64 << 20 };
+enum { SESSION_MAX = 64 << 20, SESSION_VERSION = 1, ASIDE_MAX = 100 };
 
 static struct rgb rgb_read(const json_t *a, struct rgb fallback)
 {
@@ -165,8 +167,20 @@ static bool is_another(const json_t *o, const char *path)
 	return !same && now[2] > 0;
 }
 
+/* Geometry of ours that is not whole: the next keeping takes away what it does not name, but this may be all
+ * there is of it. */
+static void keep_damaged(const char *path)
+{
+	char *name = text_print("%s.damaged", path);
+
+	if (name)
+		rename(path, name); /* one that is not there stays so */
+	free(name);
+}
+
+/* Warnings go to r, what ends the reading to wrong. */
 static enum status read_thing(struct world *w, const json_t *o, const char *folder,
-                              struct source *s, const struct report *r)
+                              struct source *s, const struct report *r, const struct report *wrong)
 {
 	const char *kept = json_text(o, "kept", NULL), *file = json_text(o, "file", NULL);
 	const char *name = json_text(o, "name", "thing");
@@ -185,6 +199,8 @@ static enum status read_thing(struct world *w, const json_t *o, const char *fold
 	}
 	st = source_open(s, path, r);
 	const struct entity *e = st == ST_OK ? source_find(s, o, kept != NULL) : NULL;
+	if (!e && kept && st != ST_RESOURCE)
+		keep_damaged(path);
 	free(path);
 	if (!e) {
 		report_warning(r, "'%s' is left out: %s", name,
@@ -216,7 +232,7 @@ static enum status read_thing(struct world *w, const json_t *o, const char *fold
 	if (st == ST_OK)
 		st = model_set_text(&f->unit, s->m.unit);
 	if (st == ST_OK && thing_get(w, f->id))
-		st = report_error(r, ST_INPUT, "the session names thing %d twice", f->id);
+		st = report_error(wrong, ST_INPUT, "the session names thing %d twice", f->id);
 	if (st == ST_OK)
 		return thing_append(w, f);
 	ful_destroy(f);
@@ -292,24 +308,64 @@ static void drop_orphans(struct world *w, const struct report *r)
 	}
 }
 
+/* The next keeping would take away what this one could not read: out of its way. Fresh name, NULL: it stays. */
+static char *set_aside(const char *folder)
+{
+	for (int k = 1; k < ASIDE_MAX; k++) {
+		char *name = text_print("%s-%d", folder, k);
+		if (name && !path_exists(name) && !rename(folder, name))
+			return name;
+		free(name);
+	}
+	return NULL;
+}
+
+static enum status read_session(json_t **o, const char *path, const struct report *r)
+{
+	char *text = NULL;
+	size_t n = 0;
+	enum status st = file_read(path, SESSION_MAX, &text, &n, r);
+
+	if (st == ST_OK)
+		st = json_parse_object(text, n, path, o, r);
+	free(text);
+	if (st == ST_OK && json_int(*o, "version", SESSION_VERSION) > SESSION_VERSION)
+		st = report_error(r, ST_INPUT, "'%s' was written by a later batten", path);
+	return st;
+}
+
+/* The sentence of what went wrong, with where it all is now. */
+static void say_aside(const struct report_store *said, enum status st, const char *folder,
+                      const struct report *r)
+{
+	char *aside = set_aside(folder);
+
+	if (aside)
+		report_error(r, st, "%s; the session and its geometry are kept in '%s'",
+		             said->error, aside);
+	else
+		report_error(r, st, "%s", said->error);
+	free(aside);
+}
+
 enum status world_restore_session(struct world *w, const struct report *r)
 {
 	char *folder = session_folder(w), *path = folder ? path_join(folder, "session.json") : NULL;
-	char *text = NULL;
-	size_t n, k;
+	size_t k;
 	json_t *o = NULL, *x;
 	struct source s = { .world = w };
+	struct report_store said;
 	enum status st = path ? ST_OK : out_of_memory(r);
 
 	model_init(&s.m);
-	if (st == ST_OK && !path_exists(path))
+	report_store_init(&said);
+	if (st != ST_OK || !path_exists(path))
 		goto done;
-	if (st == ST_OK)
-		st = file_read(path, SESSION_MAX, &text, &n, r);
-	if (st == ST_OK)
-		st = json_parse_object(text, n, path, &o, r);
+	st = read_session(&o, path, &said.report);
 	json_array_foreach(json_object_get(o, "things"), k, x) if (st == ST_OK) st =
-	        read_thing(w, x, folder, &s, r);
+	        read_thing(w, x, folder, &s, r, &said.report);
+	if (st != ST_OK)
+		say_aside(&said, st, folder, r);
 	if (st == ST_OK) {
 		for (int f = 0; f < w->n; f++)
 			if (w->things[f]->id > w->last_id)
@@ -323,7 +379,6 @@ enum status world_restore_session(struct world *w, const struct report *r)
 done:
 	source_finish(&s);
 	json_decref(o);
-	free(text);
 	free(path);
 	free(folder);
 	return st;

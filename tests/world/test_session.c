@@ -1,4 +1,5 @@
 /* test_session.c - a world kept and found again, and sessions that are damaged. */
+#include <glob.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -236,9 +237,9 @@ static void test_damaged(void **state)
 		  ST_OK },
 	};
 
-	assert_int_equal(folder_make(folder, 0777, NULL), ST_OK);
 	for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
 		struct world *w;
+		assert_int_equal(folder_make(folder, 0777, NULL), ST_OK);
 		assert_int_equal(file_write(path, cases[k].text, strlen(cases[k].text), NULL),
 		                 ST_OK);
 		assert_int_equal(world_create(&w, p->folder), ST_OK);
@@ -246,6 +247,102 @@ static void test_damaged(void **state)
 		assert_int_equal(world_count(w), 0);
 		world_destroy(w);
 	}
+	free(path);
+	free(folder);
+}
+
+/* The one file of that ending in a folder; NULL: there is none. */
+static char *only_one(const char *folder, const char *ending)
+{
+	char *pattern = text_print("%s/*%s", folder, ending), *found = NULL;
+	glob_t g;
+
+	if (!glob(pattern, 0, NULL, &g) && g.gl_pathc == 1)
+		found = strdup(g.gl_pathv[0]);
+	globfree(&g);
+	free(pattern);
+	return found;
+}
+
+/* What cannot be read is not taken away by the next keeping: it may be all there is of something. */
+static void test_damage_is_kept_aside(void **state)
+{
+	static const char *const damaged[] = { "{\"things\":[", "{\"version\":2,\"things\":[]}" };
+	struct place *p = *state;
+	struct entity e;
+	int id;
+	char *folder = place_path(p, ".batten/session"), *path = path_join(folder, "session.json");
+
+	for (int k = 0; k < 2; k++) {
+		place_line(&e, 1);
+		assert_int_equal(world_add(p->world, "line", "rod", &e, &id, NULL), ST_OK);
+		assert_int_equal(world_keep_session(p->world, NULL), ST_OK);
+		assert_int_equal(file_write(path, damaged[k], strlen(damaged[k]), NULL), ST_OK);
+		world_destroy(p->world);
+		assert_int_equal(world_create(&p->world, p->folder), ST_OK);
+		report_store_init(&p->said);
+		assert_int_equal(world_restore_session(p->world, &p->said.report), ST_INPUT);
+		assert_int_equal(p->said.n_errors, 1);
+		assert_non_null(strstr(p->said.error, k ? "session-2'" : "session-1'"));
+		assert_int_equal(world_keep_session(p->world, NULL), ST_OK);
+		char *aside = text_print("%s-%d", folder, k + 1), *base = only_one(aside, ".base");
+		assert_non_null(base);
+		free(base);
+		free(aside);
+		restart(p);
+		assert_int_equal(world_count(p->world), 0);
+	}
+	/* one thing of several */
+	place_line(&e, 1);
+	assert_int_equal(world_add(p->world, "line", "rod", &e, &id, NULL), ST_OK);
+	assert_int_equal(world_keep_session(p->world, NULL), ST_OK);
+	char *geometry = only_one(folder, ".base");
+	char *kept = text_print("%s.damaged", geometry);
+	assert_int_equal(file_write(geometry, "batten base 1\ncurve {", 21, NULL), ST_OK);
+	restart(p);
+	assert_int_equal(world_count(p->world), 0);
+	assert_int_equal(world_keep_session(p->world, NULL), ST_OK);
+	assert_true(path_exists(kept) && !path_exists(geometry));
+	free(kept);
+	free(geometry);
+	free(path);
+	free(folder);
+}
+
+/* Every byte of a session changed in one bit, or missing from there on. */
+static void test_flips(void **state)
+{
+	struct place *p = *state;
+	struct entity e;
+	char *folder = place_path(p, ".batten/session"), *path = path_join(folder, "session.json");
+	char *text;
+	size_t n;
+	int id;
+
+	place_line(&e, 1);
+	assert_int_equal(world_add(p->world, "line", "rod", &e, &id, NULL), ST_OK);
+	assert_int_equal(world_keep_session(p->world, NULL), ST_OK);
+	assert_int_equal(file_read(path, 1 << 20, &text, &n, NULL), ST_OK);
+	for (size_t i = 0; i < n; i++) {
+		const bool cut = i % 16 == 7;
+		char *folder_now = text_print("%s-1", folder);
+		struct world *w;
+		text[i] = (char)(text[i] ^ 1 << i % 8);
+		FILE *f = fopen(path, "w");
+		assert_non_null(f);
+		assert_int_equal(fwrite(text, 1, cut ? i : n, f), cut ? i : n);
+		fclose(f);
+		text[i] = (char)(text[i] ^ 1 << i % 8);
+		assert_int_equal(world_create(&w, p->folder), ST_OK);
+		const enum status st = world_restore_session(w, NULL);
+		assert_true(st == ST_OK || st == ST_INPUT);
+		assert_true(world_count(w) <= 1);
+		world_destroy(w);
+		if (st != ST_OK)
+			assert_int_equal(rename(folder_now, folder), 0);
+		free(folder_now);
+	}
+	free(text);
 	free(path);
 	free(folder);
 }
@@ -258,6 +355,8 @@ int main(void)
 		cmocka_unit_test_setup_teardown(test_sweep, place_new, place_gone),
 		cmocka_unit_test_setup_teardown(test_missing_files, place_new, place_gone),
 		cmocka_unit_test_setup_teardown(test_damaged, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_damage_is_kept_aside, place_new, place_gone),
+		cmocka_unit_test_setup_teardown(test_flips, place_new, place_gone),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
