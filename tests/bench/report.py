@@ -20,6 +20,10 @@ REASONS = [
      "The work does not grow: callgrind counts 1,311.763 million instructions for the view of wavy20 by one thread and "
      "1,311.767 by two, 1,317.787 and 1,317.791 for the torus; threads share nothing that is written. What is left is "
      "how fast the second processor is beside other work; 1.85 to 2.3 on a quieter machine."),
+    (r"2 threads / 1, curvature",
+     "Tiles that come before their turn go by a file beside the part file: a tenth of the CPU time now that one thread takes "
+     "half of what it took; 1.78 to 1.86."),
+    (r"part file of 1024 tiles made whole", "By the clock, bound by the disk; 20 ms where nothing else writes."),
     (r"^(packets|a ray a call), teapot",
      "Of a packet's time a fourth is the iteration, a fourth the tree, a seventh finish and evaluation in double: what "
      "triangles do not pay for. Their error is that of the mesh, ours 4e-16 of the size."),
