@@ -350,4 +350,6 @@ void desk_open(struct desk *d, const char *const *files, int n)
 			d->pending[d->n_pending++] = copy;
 	}
 	desk_open_next(d);
+	if (!d->errand && !d->fitted) /* nothing is read: what the session had is looked at */
+		desk_views_fit(d, NULL);
 }

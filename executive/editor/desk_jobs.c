@@ -343,6 +343,14 @@ bool desk_jobs_text(struct desk *d, uint32_t c)
 	}
 }
 
+static void reveal(struct desk *d, int at)
+{
+	if (at < d->job_scroll)
+		d->job_scroll = at;
+	else if (d->job_rows > 0 && at >= d->job_scroll + d->job_rows)
+		d->job_scroll = at - d->job_rows + 1;
+}
+
 static void step_focus(struct desk *d, int step, bool picking)
 {
 	int n = d->shelf.n, at = -1;
@@ -357,10 +365,7 @@ static void step_focus(struct desk *d, int step, bool picking)
 		focus(d, row[at]->id);
 		if (picking)
 			pick(d, row[at]->id, true);
-		if (at < d->job_scroll)
-			d->job_scroll = at;
-		else if (d->job_rows > 0 && at >= d->job_scroll + d->job_rows)
-			d->job_scroll = at - d->job_rows + 1;
+		reveal(d, at);
 	}
 	free(row);
 }

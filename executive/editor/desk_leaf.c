@@ -89,8 +89,8 @@ static const struct {
 } own_table[] = {
 	{ "V133", desk_quit, false },    { "V162", list_jobs, false },
 	{ "V163", suspend_jobs, false }, { "V164", activate_jobs, false },
-	{ "V165", kill_jobs, false },    { "V34", open_uv, true },
-	{ "V114", open_cosfair, true },  { "V149", leave_menu, false },
+	{ "V165", kill_jobs, false },    { "V34", open_uv, false },
+	{ "V114", open_cosfair, false }, { "V149", leave_menu, false },
 	{ "V156", leave_menu, false },
 };
 

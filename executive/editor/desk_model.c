@@ -40,6 +40,7 @@ static void fill_row(struct desk *d, struct scraps *s, struct menu_row *row, int
 	*row = (struct menu_row){
 		.key = desk_row_key(k), .name = e->name, .state = "", .is_menu = !menu_is_leaf(e)
 	};
+	row->is_menu |= !strcmp(e->index, "V34") || !strcmp(e->index, "V114"); /* of another file */
 	if (row->is_menu)
 		return;
 	const char *why = t ? routine_greyed(t, d->world) : "no such routine";
@@ -81,6 +82,7 @@ static void fill_field(struct desk *d, struct form_field *f, int k)
 		                  .error = a->error[k],
 		                  .kind = desk_form_kind(row),
 		                  .choices = row->choices,
+		                  .empty = row->optional ? "auto" : NULL,
 		                  .focused = k == a->focus,
 		                  .caret = a->field[k].caret };
 }

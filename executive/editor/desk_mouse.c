@@ -220,7 +220,8 @@ void desk_scroll(struct desk *d, double dy)
 	struct box_px menu = desk_part_box(d, PART_MENU);
 
 	if (d->page == PAGE_JOBS && in_box(&d->layout.view, d->x, d->y)) {
-		d->job_scroll = clamp(d->job_scroll - (int)(3 * dy), 0, d->job_rows - 1);
+		d->job_scroll = clamp(d->job_scroll - (int)(3 * dy), 0,
+		                      desk_jobs_count(d) - d->job_rows);
 	} else if (d->page == PAGE_HELP) {
 		d->help_scroll = fmax(0, d->help_scroll - 48 * dy);
 	} else if (d->page != PAGE_NONE) {

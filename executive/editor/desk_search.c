@@ -8,13 +8,28 @@ static void changed(struct desk *d)
 	desk_dirty(d, desk_bit(PART_PAGE) | desk_bit(PART_FOOT));
 }
 
+/* Can it be done now? */
+static bool can_run(const struct desk *d, const struct Menu_Entry *e)
+{
+	const struct routine *t = desk_routine(e);
+
+	return !t || desk_leaf_is_own(e->index) || !routine_greyed(t, d->world);
+}
+
+/* Among those whose names fit alike what can be done now stands first: Enter runs the first. */
 static void take(struct desk *d, const struct help_hit *hits, size_t n)
 {
 	d->n_found = 0;
-	for (size_t i = 0; i < n; i++) {
-		const struct Menu_Entry *e = desk_leaf(d, hits[i].text->code);
-		if (e && e->parent && d->n_found < FOUND_MAX)
-			d->found[d->n_found++] = e;
+	for (size_t from = 0, to; from < n; from = to) {
+		for (to = from; to < n && hits[to].score == hits[from].score;)
+			to++;
+		for (int greyed = 0; greyed < 2; greyed++)
+			for (size_t i = from; i < to; i++) {
+				const struct Menu_Entry *e = desk_leaf(d, hits[i].text->code);
+				if (e && e->parent && can_run(d, e) == !greyed &&
+				    d->n_found < FOUND_MAX)
+					d->found[d->n_found++] = e;
+			}
 	}
 }
 

@@ -85,7 +85,12 @@ enum status window_open(struct window *w)
 	glfwWindowHint(GLFW_STENCIL_BITS, 0);
 	glfwWindowHintString(GLFW_X11_CLASS_NAME, "batten");
 	glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "batten");
-	w->glfw = glfwCreateWindow(WIDTH, HEIGHT, "Batten", NULL, NULL);
+	int x, y, width = WIDTH, height = HEIGHT;
+	glfwGetMonitorWorkarea(glfwGetPrimaryMonitor(), &x, &y, &width, &height);
+	/* on a small screen as large as that is */
+	w->glfw = glfwCreateWindow(width > 0 && width < WIDTH ? width : WIDTH,
+	                           height > 0 && height < HEIGHT ? height : HEIGHT, "Batten", NULL,
+	                           NULL);
 	if (!w->glfw) {
 		glfwGetError(&why);
 		return report_error(&w->report, ST_RESOURCE,

@@ -239,6 +239,39 @@ enum status rows_of_worker(struct argument_row **out, const struct routine *t, s
 	return st;
 }
 
+/* What the worker takes where nothing was set, of a setting that is stored for it. Fresh or NULL. */
+static char *worker_default(const struct act *a, const char *stores)
+{
+	const size_t n = strcspn(stores, ".");
+	char *name = strndup(stores, n),
+	     *parameter = strndup(stores + n + 1, strcspn(stores + n + 1, " "));
+	struct roster roster = { 0 };
+	char *out = NULL;
+	size_t k;
+	json_t *o;
+
+	if (name && parameter && roster_read(&roster, a->project, name, NULL) == ST_OK) {
+		const struct roster_worker *w = roster_find(&roster, name);
+		json_array_foreach(w ? json_object_get(w->description, "parameters") : NULL, k,
+		                   o) if (!strcmp(json_text(o, "name", ""), parameter) &&
+		                          *json_text(o, "default", "")) out =
+		        strdup(json_text(o, "default", ""));
+	}
+	roster_finish(&roster);
+	free(name);
+	free(parameter);
+	return out;
+}
+
+/* A window shows what holds now; a script sets what it names and no more. */
+static void show_worker_defaults(struct argument_row *rows, const struct routine *t,
+                                 const struct act *a)
+{
+	for (struct argument_row *row = rows; row->name; row++)
+		if (t->run == setting_store && row->stores && !row->def)
+			row->def = worker_default(a, row->stores);
+}
+
 enum status routine_rows(struct argument_row **out, const struct routine *t, struct act *a)
 {
 	enum status st;
@@ -253,6 +286,8 @@ enum status routine_rows(struct argument_row **out, const struct routine *t, str
 		st = add_rows(out, t, a);
 	if (st == ST_OK && !t->worker)
 		st = rows_from_state(*out, t, a->world);
+	if (st == ST_OK && !t->worker && !a->wait)
+		show_worker_defaults(*out, t, a);
 	if (st != ST_OK) {
 		routine_rows_free(*out);
 		*out = NULL;

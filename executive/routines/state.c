@@ -177,6 +177,10 @@ void routine_state(const struct routine *t, const struct world *w, char out[48])
 	if (rows_copy(&rows, t->arguments, w) != ST_OK)
 		return;
 	for (const struct argument_row *row = rows; row->name; row++) {
+		const bool exact = t->run == surface_resolution && !strcmp(row->name, "segments") &&
+		                   value_now(t, row->name, w, value) && !strcmp(value, "0");
+		if (exact)
+			continue; /* nothing to tell: as exact as can be seen */
 		if (is_switch(t) && value_now(t, row->name, w, value))
 			text_add(&now, !strcmp(value, "no") ? "on" : "off");
 		else if (value_now(t, row->name, w, value))

@@ -30,10 +30,10 @@ static const struct menu_row curvature[] = {
 	{ 'A', "SEGMENTATION", "400 × 200", false, false, false },
 };
 static const struct form_field asked[] = {
-	{ "Map file", "teap", "", NULL, FORM_TEXT, NULL, true, 4 },
-	{ "Range", "2 – 98", "% of area", NULL, FORM_TEXT, NULL, false, 0 },
-	{ "Scale", "arsinh", "", NULL, FORM_CHOICE, "linear|arsinh", false, 0 },
-	{ "Symmetric", "yes", "about zero", NULL, FORM_YESNO, NULL, false, 0 },
+	{ "Map file", "teap", "", NULL, FORM_TEXT, NULL, NULL, true, 4 },
+	{ "Range", "2 – 98", "% of area", NULL, FORM_TEXT, NULL, NULL, false, 0 },
+	{ "Scale", "arsinh", "", NULL, FORM_CHOICE, "linear|arsinh", NULL, false, 0 },
+	{ "Symmetric", "yes", "about zero", NULL, FORM_YESNO, NULL, NULL, false, 0 },
 };
 const struct menu_model model_menu = {
 	.crumbs = "MAIN › INTERROGATION › SURFACE",
@@ -67,9 +67,9 @@ static const struct menu_row fourteen[] = {
 	{ 'D', "QUIT", "", false, false, true },
 };
 static const struct form_field point[] = {
-	{ "Point", "5", "of 10", NULL, FORM_TEXT, NULL, false, 0 },
-	{ "u", "6.5000", "", NULL, FORM_TEXT, NULL, true, 3 },
-	{ "v", "4.3000", "", NULL, FORM_TEXT, NULL, false, 0 },
+	{ "Point", "5", "of 10", NULL, FORM_TEXT, NULL, NULL, false, 0 },
+	{ "u", "6.5000", "", NULL, FORM_TEXT, NULL, NULL, true, 3 },
+	{ "v", "4.3000", "", NULL, FORM_TEXT, NULL, NULL, false, 0 },
 };
 const struct menu_model model_menu_long = {
 	.crumbs = "MAIN › PROCESSING › COS PROCESSING",
@@ -86,11 +86,11 @@ const struct menu_model model_menu_long = {
 
 static const struct form_field wrong[] = {
 	{ "Distance", "0.9", "m", "greater than the smallest radius, 0.340 m", FORM_TEXT, NULL,
-	  true, 3 },
+	  NULL, true, 3 },
 	{ "Surface", "teapot lid, upper half, from the import of Tuesday", "", NULL, FORM_TEXT,
-	  NULL, false, 0 },
-	{ "Over", "shade", "", NULL, FORM_CHOICE, "wire|shade|map", false, 0 },
-	{ "Light fixed", "no", "to the hull", NULL, FORM_YESNO, NULL, false, 0 },
+	  NULL, NULL, false, 0 },
+	{ "Over", "shade", "", NULL, FORM_CHOICE, "wire|shade|map", NULL, false, 0 },
+	{ "Light fixed", "no", "to the hull", NULL, FORM_YESNO, NULL, NULL, false, 0 },
 };
 const struct menu_model model_menu_error = {
 	.crumbs = "MAIN › INTERROGATION › SURFACE",

@@ -269,6 +269,17 @@ static bool is_headed(struct stand *s, const char *title, const char *note)
 	return same;
 }
 
+/* Opened on what the last session left, with no file to be read. */
+static void a_session_is_seen_at_once(void **state)
+{
+	struct stand *s = *state;
+	int n;
+
+	stand_add_plate(s, "plate");
+	desk_open(s->desk, NULL, 0);
+	assert_true(desk_tiles(s->desk, &n)[0].view.camera.half > 0);
+}
+
 static void an_image_is_headed_by_its_file(void **state)
 {
 	struct stand *s = *state;
@@ -462,6 +473,7 @@ int main(void)
 		TEST(the_plane_of_parameters_is_a_view),
 		TEST(the_probe_is_kept_as_a_mark),
 		TEST(the_light_is_dragged_live_and_taken_back),
+		TEST(a_session_is_seen_at_once),
 		TEST(an_image_is_headed_by_its_file),
 		TEST(what_is_shown_is_told),
 		TEST(a_color_is_seen_while_it_is_chosen),

@@ -63,7 +63,7 @@ static void paint_frame(struct canvas *c, const struct layout *l, const struct w
 			                     i % 2,           i % 3 == 0, i % 5 == 0 };
 	for (int i = 0; i < FIELDS; i++)
 		fields[i] = (struct form_field){ w->text, w->text, w->text, i % 2 ? w->text : NULL,
-			                         i % 3,   w->text, i == 7,  w->count };
+			                         i % 3,   w->text, w->text, i == 7,  w->count };
 	const struct top_model top = { w->text, w->text, chips, CHIPS };
 	const struct menu_model menu = { .crumbs = w->text,
 		                         .title = w->text,

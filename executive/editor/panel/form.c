@@ -118,6 +118,9 @@ static void paint_field(const struct form *f, const struct form_field *field, in
 		paint_typed(p, LABEL_FORM, x + 8, middle, room, field->value, field->caret, true);
 	else
 		paint_path(p, LABEL_FORM, TOKEN_TEXT, x + 8, middle, room, field->value);
+	if (field->empty && !(field->value && *field->value))
+		paint_cut(p, LABEL_FORM, TOKEN_OFF, x + (field->focused ? 14 : 8), middle, 0, room,
+		          field->empty);
 	paint_hit(p, HIT_FIELD, i, 0, x, middle - 12, width, FIELD);
 }
 

@@ -100,6 +100,7 @@ struct form_field {
 	const char *label, *value, *unit, *error; /* error: below the field, or NULL */
 	enum form_kind kind;
 	const char *choices; /* "linear|arsinh" */
+	const char *empty;   /* what stands, grey, where nothing does; or NULL */
 	bool focused;
 	int caret; /* byte in value */
 };

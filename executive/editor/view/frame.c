@@ -371,7 +371,7 @@ enum status view_draw(struct view *v, const struct world *w, const struct view_s
 	struct drawing d;
 	GLint bound = 0;
 	*more = false;
-	if (width < 1 || height < 1)
+	if (width < 1 || height < 1 || !(s->camera.half > 0))
 		return ST_OK;
 	glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
 	enum status st = drawing_init(&d, v, w, s, width, height, r);
