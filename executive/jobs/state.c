@@ -15,6 +15,19 @@ const char *const job_event_asked[N_JOB_EVENTS] = { JOB_EVENT_MAP(X) };
 
 const char job_held_text[] = "the queue is held; 'batten release --all' lets it go on";
 
+/* What did not fit ends with a whole character: half of one is no UTF-8, and the record no JSON. */
+static void text_end(char *text, int wanted, int size)
+{
+	if (wanted < size)
+		return;
+	int n = size - 1;
+	while (n && ((unsigned char)text[n - 1] & 0xc0) == 0x80)
+		n--;
+	if (n && (unsigned char)text[n - 1] >= 0x80)
+		n--;
+	text[n] = '\0';
+}
+
 void job_reason(struct job *job, const char *format, ...)
 {
 	char text[1024];
@@ -25,7 +38,7 @@ void job_reason(struct job *job, const char *format, ...)
 		return;
 	}
 	va_start(ap, format);
-	vsnprintf(text, sizeof text, format, ap);
+	text_end(text, vsnprintf(text, sizeof text, format, ap), sizeof text);
 	va_end(ap);
 	if (job->stats.reason && !strcmp(job->stats.reason, text))
 		return;
@@ -41,7 +54,7 @@ void job_fault(struct job *job, const char *format, ...)
 	if (job->fault)
 		return;
 	va_start(ap, format);
-	vsnprintf(text, sizeof text, format, ap);
+	text_end(text, vsnprintf(text, sizeof text, format, ap), sizeof text);
 	va_end(ap);
 	job->fault = strdup(text);
 }

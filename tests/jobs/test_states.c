@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "fake.h"
+#include "text.h"
 
 static void a_suspended_job_gives_its_slot_away(void **state)
 {
@@ -70,6 +71,33 @@ static void a_stop_that_is_refused_is_forgotten(void **state)
 	fake_exit(f, id, 0, 9);
 	fake_eof(f, id);
 	assert_int_equal(fake_state(f, id), JOB_FAILED);
+}
+
+/* However long the sentence is and wherever it is cut, the record is JSON. */
+static void a_long_reason_ends_with_a_character(void **state)
+{
+	static const char *const letters[] = { "x", "\xc3\xa9", "\xe2\x82\xac",
+		                               "\xf0\x9f\x98\x80" };
+	struct fake *f = *state;
+	for (size_t k = 0; k < sizeof letters / sizeof *letters; k++)
+		for (int more = 0; more < 4; more++) {
+			struct text t = { 0 };
+			text_add_bytes(&t, "abc", (size_t)more);
+			for (int i = 0; i < 1500; i++)
+				text_add(&t, letters[k]);
+			int64_t id = fake_submit(f, 0, 1, 0);
+			fake_hello(f, id);
+			fake_packet(f, id, MESSAGE_ERROR,
+			            json_pack("{s:s, s:s}", "class", "input", "text", t.s));
+			fake_exit(f, id, 1, 0);
+			fake_eof(f, id);
+			text_finish(&t);
+			assert_int_equal(fake_state(f, id), JOB_FAILED);
+			assert_true(strlen(fake_reason(f, id)) > 1000);
+			json_t *o = stats_to_json(queue_find(f->q, id));
+			assert_non_null(o);
+			json_decref(o);
+		}
 }
 
 static void suspends_before_hello(void **state)
@@ -292,6 +320,7 @@ int main(void)
 		T(a_suspended_job_gives_its_slot_away),
 		T(sees_stops_from_outside),
 		T(a_stop_that_is_refused_is_forgotten),
+		T(a_long_reason_ends_with_a_character),
 		T(suspends_before_hello),
 		T(kills_in_three_steps),
 		T(a_suspended_job_hears_its_kill),
