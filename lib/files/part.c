@@ -291,19 +291,26 @@ uint64_t part_bytes(const struct part *p)
 	return n;
 }
 
-static enum status put_behind(struct part *p, size_t unit, const void *bytes, size_t n,
-                              const struct report *r)
+static enum status put_behind(struct part *p, const struct part_unit *u, const struct report *r)
 {
-	if (p->spans[unit].at)
+	if (p->spans[u->unit].at)
 		return ST_OK;
-	int error = part_write_record(p, unit, bytes, n, p->end, true);
+	int error = part_write_record(p, u, p->end, true);
 	if (error)
 		return part_fail(r, p, "write", error);
-	p->spans[unit] = (struct part_span){ p->end + PART_RECORD_SIZE, n, false };
-	p->order[p->n_order++] = unit;
+	p->spans[u->unit] = (struct part_span){ p->end + PART_RECORD_SIZE, u->n, false };
+	p->order[p->n_order++] = u->unit;
 	p->count++;
-	p->end += PART_RECORD_SIZE + n;
+	p->end += PART_RECORD_SIZE + u->n;
 	return ST_OK;
+}
+
+enum status part_put_unit(struct part *p, const struct part_unit *u, const struct report *r)
+{
+	pthread_mutex_lock(&p->lock);
+	enum status st = p->front ? part_put_ordered(p, u, r) : put_behind(p, u, r);
+	pthread_mutex_unlock(&p->lock);
+	return st;
 }
 
 enum status part_put(struct part *p, size_t unit, const void *bytes, size_t n,
@@ -312,11 +319,7 @@ enum status part_put(struct part *p, size_t unit, const void *bytes, size_t n,
 	if (unit >= p->n_units)
 		return report_error(r, ST_INTERNAL, "unit %zu of %zu in part file '%s'", unit,
 		                    p->n_units, p->path);
-	pthread_mutex_lock(&p->lock);
-	enum status st = p->front ? part_put_ordered(p, unit, bytes, n, r)
-	                          : put_behind(p, unit, bytes, n, r);
-	pthread_mutex_unlock(&p->lock);
-	return st;
+	return part_put_unit(p, &(struct part_unit){ unit, n, bytes, checksum_bytes(bytes, n) }, r);
 }
 
 /* At 0: the unit is not in this file. */
@@ -342,12 +345,10 @@ static bool is_ahead(struct part *p, size_t unit, enum status *st, struct text *
 	return ahead;
 }
 
-enum status part_read(struct part *p, size_t unit, struct text *bytes, const struct report *r)
+enum status part_read_checked(struct part *p, size_t unit, struct text *bytes, uint64_t *checked,
+                              const struct report *r)
 {
 	char sum[PART_CHECKSUM_SIZE];
-	enum status st = ST_OK;
-	if (is_ahead(p, unit, &st, bytes, r))
-		return st;
 	struct part_span span = find_span(p, unit);
 	if (!span.at)
 		return not_there(r, p, unit);
@@ -358,8 +359,17 @@ enum status part_read(struct part *p, size_t unit, struct text *bytes, const str
 	if (!part_read_at(p->fd, sum, sizeof sum, span.at - 2 * PART_CHECKSUM_SIZE) ||
 	    !part_read_at(p->fd, to, (size_t)span.n, span.at))
 		return part_cut_short(r, p);
-	return checksum_bytes(to, (size_t)span.n) == part_get_u64(sum) ? ST_OK
-	                                                               : part_damaged(r, p, unit);
+	*checked = part_get_u64(sum);
+	return checksum_bytes(to, (size_t)span.n) == *checked ? ST_OK : part_damaged(r, p, unit);
+}
+
+enum status part_read(struct part *p, size_t unit, struct text *bytes, const struct report *r)
+{
+	uint64_t sum;
+	enum status st = ST_OK;
+	if (is_ahead(p, unit, &st, bytes, r))
+		return st;
+	return part_read_checked(p, unit, bytes, &sum, r);
 }
 
 enum status part_read_end(struct part *p, size_t unit, void *to, size_t n, const struct report *r)

@@ -94,16 +94,15 @@ int part_write_at(int fd, struct iovec *v, int n_v, uint64_t at, bool cut)
 	return 0;
 }
 
-int part_write_record(const struct part *p, size_t unit, const void *bytes, size_t n, uint64_t at,
-                      bool cut)
+int part_write_record(const struct part *p, const struct part_unit *u, uint64_t at, bool cut)
 {
 	unsigned char record[PART_RECORD_SIZE];
-	part_put_u64(record, unit);
-	part_put_u64(record + 8, n);
-	part_put_u64(record + 16, checksum_bytes(bytes, n));
+	part_put_u64(record, u->unit);
+	part_put_u64(record + 8, u->n);
+	part_put_u64(record + 16, u->sum);
 	part_put_u64(record + 24,
 	             checksum_bytes(record, PART_RECORD_SIZE - PART_CHECKSUM_SIZE) ^ p->salt);
-	struct iovec v[2] = { { record, sizeof record }, { (void *)bytes, n } };
+	struct iovec v[2] = { { record, sizeof record }, { (void *)u->bytes, u->n } };
 	return part_write_at(p->fd, v, 2, at, cut);
 }
 

@@ -33,14 +33,14 @@ static void ahead_forget(struct part *p, size_t unit)
 	pthread_mutex_unlock(&a->lock);
 }
 
-static enum status append(struct part *p, const void *bytes, size_t n, const struct report *r)
+static enum status append(struct part *p, const struct part_unit *u, const struct report *r)
 {
-	int error = part_write_record(p, p->next, bytes, n, p->end, true);
+	int error = part_write_record(p, u, p->end, true);
 	if (error)
 		return part_fail(r, p, "write", error);
-	p->spans[p->next++] = (struct part_span){ p->end + PART_RECORD_SIZE, n, false };
+	p->spans[p->next++] = (struct part_span){ p->end + PART_RECORD_SIZE, u->n, false };
 	p->count++;
-	p->end += PART_RECORD_SIZE + n;
+	p->end += PART_RECORD_SIZE + u->n;
 	return ST_OK;
 }
 
@@ -49,23 +49,24 @@ static enum status move_in(struct part *p, const struct report *r)
 {
 	enum status st = ST_OK;
 	while (st == ST_OK && p->next < p->n_units && part_ahead_has(p, p->next)) {
-		size_t unit = p->next;
-		st = part_read(p->ahead, unit, &p->moving, r);
+		struct part_unit u = { .unit = p->next };
+		st = part_read_checked(p->ahead, u.unit, &p->moving, &u.sum, r);
+		u.bytes = p->moving.s;
+		u.n = p->moving.n;
 		if (st == ST_OK)
-			st = append(p, p->moving.s, p->moving.n, r);
+			st = append(p, &u, r);
 		if (st == ST_OK)
-			ahead_forget(p, unit);
+			ahead_forget(p, u.unit);
 	}
 	return st;
 }
 
-static enum status fill_hole(struct part *p, size_t unit, const void *bytes, size_t n,
-                             const struct report *r)
+static enum status fill_hole(struct part *p, const struct part_unit *u, const struct report *r)
 {
-	struct part_span *span = &p->spans[unit];
-	if (span->n != n)
-		return part_damaged(r, p, unit);
-	int error = part_write_record(p, unit, bytes, n, span->at - PART_RECORD_SIZE, false);
+	struct part_span *span = &p->spans[u->unit];
+	if (span->n != u->n)
+		return part_damaged(r, p, u->unit);
+	int error = part_write_record(p, u, span->at - PART_RECORD_SIZE, false);
 	if (error)
 		return part_fail(r, p, "write", error);
 	span->hole = false;
@@ -73,21 +74,20 @@ static enum status fill_hole(struct part *p, size_t unit, const void *bytes, siz
 	return ST_OK;
 }
 
-enum status part_put_ordered(struct part *p, size_t unit, const void *bytes, size_t n,
-                             const struct report *r)
+enum status part_put_ordered(struct part *p, const struct part_unit *u, const struct report *r)
 {
-	if (p->spans[unit].hole)
-		return fill_hole(p, unit, bytes, n, r);
-	if (p->spans[unit].at || part_ahead_has(p, unit))
+	if (p->spans[u->unit].hole)
+		return fill_hole(p, u, r);
+	if (p->spans[u->unit].at || part_ahead_has(p, u->unit))
 		return ST_OK;
-	if (unit == p->next) {
-		enum status st = append(p, bytes, n, r);
+	if (u->unit == p->next) {
+		enum status st = append(p, u, r);
 		return st == ST_OK ? move_in(p, r) : st;
 	}
 	enum status st = ST_OK;
 	if (!p->ahead)
 		st = part_open(&p->ahead, p->ahead_path, p->key, p->n_units, r);
-	return st == ST_OK ? part_put(p->ahead, unit, bytes, n, r) : st;
+	return st == ST_OK ? part_put_unit(p->ahead, u, r) : st;
 }
 
 enum status part_ahead_open(struct part *p, const struct report *r)

@@ -71,9 +71,15 @@ bool part_read_at(int fd, char *to, size_t n, uint64_t from);
 /* pwritev of everything at `at`; cut: a file cut short by a full disk is cut back. Gives errno. */
 int part_write_at(int fd, struct iovec *v, int n_v, uint64_t at, bool cut);
 
-/* A unit's record at `at`, the bytes behind it. Gives errno. */
-int part_write_record(const struct part *p, size_t unit, const void *bytes, size_t n, uint64_t at,
-                      bool cut);
+/* A unit on its way into a file. */
+struct part_unit {
+	size_t unit, n;
+	const void *bytes; /* borrowed */
+	uint64_t sum;      /* their checksum: it is made once */
+};
+
+/* Its record at `at`, the bytes behind it. Gives errno. */
+int part_write_record(const struct part *p, const struct part_unit *u, uint64_t at, bool cut);
 
 /* The head of a record: checked by itself, its unit one of n_units. */
 struct part_record {
@@ -106,10 +112,13 @@ enum status part_cut_short(const struct report *r, const struct part *p);
 enum status part_damaged(const struct report *r, const struct part *p, size_t unit);
 
 /* With a front; p->lock is held. Put a unit at its place, or aside until it has one. */
-enum status part_put_ordered(struct part *p, size_t unit, const void *bytes, size_t n,
-                             const struct report *r);
+enum status part_put_ordered(struct part *p, const struct part_unit *u, const struct report *r);
+enum status part_put_unit(struct part *p, const struct part_unit *u, const struct report *r);
 /* Find what is kept aside, and put in place what can be. */
 enum status part_ahead_open(struct part *p, const struct report *r);
+/* Read a unit in its place, and its checksum, which was compared. */
+enum status part_read_checked(struct part *p, size_t unit, struct text *bytes, uint64_t *checked,
+                              const struct report *r);
 bool part_ahead_has(struct part *p, size_t unit);
 
 #endif
