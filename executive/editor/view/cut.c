@@ -8,6 +8,10 @@
 
 static const double angle_coarse = 0.4, angle_fine = 0.12; /* radians, between normals of an edge */
 
+/* So many chords across a surface those angles hold; less are asked of smaller ones. */
+static const double chords_coarse = 30, chords_fine = 100;
+enum { AT_ONCE = 16 /* surfaces a thread, between looks at the clock */ };
+
 struct order {
 	struct shape *shape;
 	struct mesh_made made;
@@ -18,6 +22,7 @@ struct order {
 struct orders {
 	struct order *order;
 	bool coarse;
+	double seen; /* length by which a surface counts as small */
 };
 
 static double now(void)
@@ -32,8 +37,12 @@ static enum status cut_one(void *data, size_t unit, int thread)
 	struct orders *all = data;
 	struct order *o = &all->order[unit];
 	(void)thread;
+	/* bends of small surfaces are not seen */
+	const double chords = box_diagonal(&o->shape->box) / all->seen;
+	const double wide = fmax((all->coarse ? chords_coarse : chords_fine) / chords, 1);
+	const double angle = fmin((all->coarse ? angle_coarse : angle_fine) * wide * wide, M_PI);
 	o->status = mesh_made_init(&o->made, &o->shape->surface, &o->shape->trim, o->shape->origin,
-	                           o->chord, all->coarse ? angle_coarse : angle_fine);
+	                           o->chord, angle);
 	return ST_OK;
 }
 
@@ -57,12 +66,17 @@ static void finish_order(struct order *o, bool coarse)
 	m->failed = o->status != ST_OK;
 	m->chord = o->chord;
 	m->triangles = o->made.n_indices / 3;
-	gpu_mesh_load(&m->gpu, &o->made);
-	mesh_made_finish(&o->made);
+	mesh_made_finish(&m->made);
+	m->made = o->made;
+	m->loaded = false;
+	if (coarse)
+		return;
+	shape_mesh_gpu(m);
+	mesh_made_finish(&m->made);
 }
 
-enum status shapes_cut(struct shape *const *shapes, int n, bool coarse, double chord, int most,
-                       double seconds, bool *more)
+enum status shapes_cut(struct shape *const *shapes, int n, bool coarse, double chord, double seen,
+                       int most, double seconds, bool *more)
 {
 	const double end = now() + seconds;
 	const int threads = parallel_processors();
@@ -70,14 +84,15 @@ enum status shapes_cut(struct shape *const *shapes, int n, bool coarse, double c
 	for (int i = 0; i < n; i++)
 		expected += foresee(shapes[i], chord);
 	chord *= fmax(expected / most, 1);
-	struct order *order = calloc((size_t)threads + 1, sizeof *order);
+	const int room = AT_ONCE * threads;
+	struct order *order = calloc((size_t)room, sizeof *order);
 	if (!order)
 		return ST_RESOURCE;
-	struct orders all = { order, coarse };
+	struct orders all = { order, coarse, seen };
 	enum status st = ST_OK;
 	for (int i = 0; i < n && st == ST_OK;) {
 		int k = 0;
-		for (; i < n && k < threads; i++)
+		for (; i < n && k < room; i++)
 			if (shapes[i]->surface.order[0] &&
 			    !good(coarse ? &shapes[i]->coarse : &shapes[i]->fine, chord))
 				order[k++] = (struct order){ .shape = shapes[i], .chord = chord };
@@ -97,16 +112,19 @@ enum status shapes_cut_coarse(struct shapes *s, struct shape *const *shapes, int
                               int most)
 {
 	enum { TRIES = 4 };
+	double before = INFINITY;
 	enum status st = ST_OK;
 	for (int k = 0; k < TRIES && st == ST_OK; k++) {
 		bool more = false;
 		double sum = 0;
 		s->coarse_chord = fmax(s->coarse_chord, chord);
-		st = shapes_cut(shapes, n, true, s->coarse_chord, INT_MAX, INFINITY, &more);
+		st = shapes_cut(shapes, n, true, s->coarse_chord, chord, INT_MAX, INFINITY, &more);
 		for (int i = 0; i < n; i++)
 			sum += shapes[i]->coarse.triangles;
-		if (sum <= most)
+		/* those of few triangles each cannot have fewer */
+		if (sum <= most || sum > 0.8 * before)
 			break;
+		before = sum;
 		s->coarse_chord *= 1.2 * sum / most;
 		for (int i = 0; i < n; i++)
 			shapes[i]->coarse.chord = 0;

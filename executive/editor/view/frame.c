@@ -34,6 +34,7 @@ void view_destroy(struct view *v)
 	for (int i = 0; i < VIEW_PLACES; i++)
 		target_finish(&v->stills[i].target);
 	shapes_finish(&v->shapes);
+	gpu_mesh_finish(&v->batch.gpu);
 	maps_finish(v);
 	results_finish(v);
 	images_finish(v);
@@ -56,11 +57,12 @@ static enum status find_shown(struct drawing *d)
 	d->shown = calloc((size_t)n + 1, sizeof *d->shown);
 	d->things = calloc((size_t)n + 1, sizeof *d->things);
 	d->in_view = calloc((size_t)n + 1, sizeof *d->in_view);
-	if (!d->shown || !d->things || !d->in_view)
+	d->in_batch = calloc((size_t)n + 1, sizeof *d->in_batch);
+	if (!d->shown || !d->things || !d->in_view || !d->in_batch)
 		return ST_RESOURCE;
 	for (int k = 0; k < n; k++) {
 		const struct Ful *f = world_at(d->world, k);
-		struct shape *x = shapes_find(&d->view->shapes, f->id);
+		struct shape *x = shapes_find(&d->view->shapes, f->id, k);
 		if (!x || !is_shown(d, f) || box_is_empty(&x->box))
 			continue;
 		d->things[d->n_shown] = f;
@@ -226,7 +228,8 @@ void drawing_finish(struct drawing *d)
 	free((void *)d->shown);
 	free((void *)d->things);
 	free(d->in_view);
-	d->in_view = NULL;
+	free(d->in_batch);
+	d->in_view = d->in_batch = NULL;
 	d->shown = NULL;
 	d->things = NULL;
 }

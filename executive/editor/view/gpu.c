@@ -34,6 +34,36 @@ void gpu_mesh_load(struct gpu_mesh *g, const struct mesh_made *m)
 	g->n_border = m->n_border;
 }
 
+void gpu_tinted_load(struct gpu_mesh *g, const struct tinted *t)
+{
+	const GLsizeiptr n = (GLsizeiptr)(t->n_indices * sizeof(unsigned)),
+	                 n_border = (GLsizeiptr)(t->n_border * sizeof(unsigned));
+	gpu_mesh_finish(g);
+	glGenVertexArrays(1, &g->array);
+	glGenBuffers(1, &g->vertices);
+	glGenBuffers(1, &g->indices);
+	glBindVertexArray(g->array);
+	glBindBuffer(GL_ARRAY_BUFFER, g->vertices);
+	glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(t->n_vertices * sizeof *t->vertices),
+	             t->vertices, GL_STATIC_DRAW);
+	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
+	glBufferData(GL_ELEMENT_ARRAY_BUFFER, n + n_border, NULL, GL_STATIC_DRAW);
+	glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, n, t->indices);
+	glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, n, n_border, t->border);
+	static const size_t at[3] = { offsetof(struct tinted_vertex, position),
+		                      offsetof(struct tinted_vertex, normal),
+		                      offsetof(struct tinted_vertex, color) };
+	static const GLuint place[3] = { 0, 1, 3 };
+	for (int i = 0; i < 3; i++) {
+		glEnableVertexAttribArray(place[i]);
+		glVertexAttribPointer(place[i], 3, GL_FLOAT, GL_FALSE, sizeof *t->vertices,
+		                      (const void *)at[i]);
+	}
+	glBindVertexArray(0);
+	g->n = t->n_indices;
+	g->n_border = t->n_border;
+}
+
 void gpu_mesh_finish(struct gpu_mesh *g)
 {
 	glDeleteVertexArrays(1, &g->array);

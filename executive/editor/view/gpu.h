@@ -13,6 +13,16 @@ struct gpu_mesh {
 	int n, n_border; /* indices: of triangles; of the borders' edges, behind them */
 };
 void gpu_mesh_load(struct gpu_mesh *g, const struct mesh_made *m);
+/* Triangles whose vertices have colors, as light. */
+struct tinted_vertex {
+	float position[3], normal[3], color[3];
+};
+struct tinted {
+	struct tinted_vertex *vertices;
+	unsigned *indices, *border;
+	int n_vertices, n_indices, n_border;
+};
+void gpu_tinted_load(struct gpu_mesh *g, const struct tinted *t);
 void gpu_mesh_finish(struct gpu_mesh *g);
 
 /* Polylines, or points. */

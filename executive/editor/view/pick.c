@@ -60,11 +60,31 @@ static double depth_at(const struct search *s, struct vec3 p)
 	return vec3_dot(vec3_sub(p, c->eye), c->ahead);
 }
 
+/* Rays are made ready of surfaces whose box is under the mouse, not of all. */
+static bool meets_box(const struct ray *r, const struct box *b)
+{
+	const double o[3] = { r->origin.x, r->origin.y, r->origin.z };
+	const double v[3] = { r->direction.x, r->direction.y, r->direction.z };
+	const double lo[3] = { b->lo.x, b->lo.y, b->lo.z }, hi[3] = { b->hi.x, b->hi.y, b->hi.z };
+	const double room = 1e-9 * box_diagonal(b);
+	double near = -INFINITY, far = INFINITY;
+	for (int k = 0; k < 3; k++) {
+		if (v[k] == 0 && (o[k] < lo[k] - room || o[k] > hi[k] + room))
+			return false;
+		if (v[k] == 0)
+			continue;
+		const double t0 = (lo[k] - room - o[k]) / v[k], t1 = (hi[k] + room - o[k]) / v[k];
+		near = fmax(near, fmin(t0, t1));
+		far = fmin(far, fmax(t0, t1));
+	}
+	return near <= far;
+}
+
 /* All layers of a surface that the ray goes through. */
 static void try_surface(struct search *s, const struct Ful *f, struct shape *x)
 {
-	const struct ray_scene *rays = shape_rays(x);
 	struct ray r = ray_of(s);
+	const struct ray_scene *rays = meets_box(&r, &x->box) ? shape_rays(x) : NULL;
 	for (int i = 0; rays && i < LAYERS_MAX; i++) {
 		struct ray_hit hit;
 		ray_scene_hits(rays, &r, 1, true, &hit);
@@ -181,12 +201,15 @@ static enum status search_all(struct search *s, bool points)
 		const struct Ful *f = d->things[i];
 		struct shape *x = d->shown[i];
 		const bool list = f->entity.kind == ENTITY_POINTS;
-		if (!(x->tolerance > 0))
-			st = shape_make_lines(x, d->world, f,
+		const bool net = points && f->display.net;
+		/* a surface is found by rays */
+		if ((net || f->entity.kind != ENTITY_SURFACE) &&
+		    !(x->tolerance > 0 && x->made_for.net == f->display.net))
+			st = shape_make_lines(x, d->world, f, true,
 			                      0.1 * drawing_pixel(d, box_center(&d->box)));
 		if (st != ST_OK)
 			break;
-		if ((points && f->display.net) || list)
+		if (net || list)
 			try_points(s, f, x);
 		if (f->entity.kind == ENTITY_SURFACE)
 			try_surface(s, f, x);

@@ -28,7 +28,7 @@ void poly_reset(struct poly *p, struct vec3 origin)
 static void append(struct poly *p, struct poly_vertex v, double t)
 {
 	if (p->n == p->room) {
-		const int room = p->room ? 2 * p->room : 256;
+		const int room = p->room ? 2 * p->room : 16;
 		struct poly_vertex *more = reallocarray(p->v, (size_t)room, sizeof *more);
 		if (more)
 			p->v = more;

@@ -130,12 +130,14 @@ static enum status draw_to(struct sheet *s, struct view *v, const struct world *
 	clear(0, 0, s->width, s->height, theme_color(tiles->tile[0].state.theme, TOKEN_LINE));
 	for (int i = 0; i < tiles->n; i++) {
 		const struct render_tile *x = &tiles->tile[i];
+		struct view_state state = x->state;
 		bool more = !x->is_plane && !x->is_empty;
+		state.whole = true;
 		clear(x->x, s->height - x->y - x->height, x->width, x->height, ground);
 		/* values of a job that still runs are taken as they are; triangles are waited for */
 		for (int k = 0; k < 10000 && more && st == ST_OK; k++) {
 			glBindFramebuffer(GL_FRAMEBUFFER, t.frame);
-			st = view_draw(v, w, &x->state, x->x, s->height - x->y - x->height, x->seen,
+			st = view_draw(v, w, &state, x->x, s->height - x->y - x->height, x->seen,
 			               x->height, &more, r);
 		}
 		has_key[i] = x->has_key && view_key(v, &keys[i]);

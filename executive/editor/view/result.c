@@ -308,7 +308,7 @@ enum status results_draw(struct drawing *d)
 	const double tolerance = 0.15 * drawing_pixel(d, box_center(&d->box));
 	for (int k = 0; k < world_overlays(d->world) && st == ST_OK; k++) {
 		const struct overlay *o = world_overlay(d->world, k);
-		const struct shape *x = shapes_find(&v->shapes, o->thing);
+		const struct shape *x = shapes_find(&v->shapes, o->thing, 0);
 		bool shown = !o->thing, solid = false;
 		for (int i = 0; i < d->n_shown; i++) {
 			if (o->thing && d->shown[i] != x)

@@ -1,173 +1,29 @@
-/* scene.c - surfaces, curves, nets, points and combs drawn. */
+/* scene.c - lines of surfaces, curves, nets, points and combs drawn. */
 #include <stdlib.h>
 
 #include "view_private.h"
 
-enum {
-	MOVING_TRIANGLES = 100000, /* over all, while something is dragged */
-	FINE_TRIANGLES = 600000,
-	FLUSHED = 16384, /* a driver begins with so many while more come */
-};
-static const double chord_px = 0.2;      /* of triangles from their surface, device px */
-static const double line_px = 0.1;       /* of chords from their curve */
+static const double line_px = 0.1;       /* of chords from their curve, device px */
 static const double moved_line_px = 0.6; /* while something is dragged */
-static const double small_triangle = 64; /* device px squared */
-static const double coarse_chord = 1e-3; /* of the scene's size */
-static const double border_back = 2;     /* px, of borders behind their surface */
-static const double cut_seconds = 0.06;  /* a drawing may spend on triangles */
-
-/* Shading as in the shading worker's pictures. */
-static const double ambient = 0.3, diffuse = 0.5, highlight = 0.12, sharpness = 40;
-static const struct rgb plain_surface = { 0xC3 / 255.0, 0xCC / 255.0, 0xD4 / 255.0 };
+/* Surfaces smaller than that, logical px, have no lines inside, or none at all: at rest, while dragged. */
+static const double wire_least[2] = { 16, 24 }, edge_least[2] = { 5, 12 };
 
 /* Lines on a surface stand before it by this many px. */
 enum { LIFT_WIRE = 1, LIFT_RESULT = 2, LIFT_CURVE = 3, LIFT_NET = 4, LIFT_POINT = 5 };
 
-/* How a surface is drawn now: a map without values is a wire frame. */
-static enum surface_look look_of(const struct drawing *d, const struct Ful *f)
+/* Which lines of a surface are to be seen at its size. */
+struct detail {
+	bool wire, edge;
+};
+static struct detail detail_of(const struct drawing *d, int i)
 {
-	if (f->entity.kind != ENTITY_SURFACE || f->display.look == LOOK_IMAGE)
-		return LOOK_WIRE;
-	if (f->display.look == LOOK_MAP &&
-	    map_quantity(d, overlay_of(d->world, OVERLAY_MAP, f->id)) < 0)
-		return LOOK_WIRE;
-	return f->display.look;
-}
-
-/* The smallest length of a pixel anywhere on what is seen. */
-static double smallest_pixel(const struct drawing *d)
-{
-	const struct camera *c = &d->camera;
-	struct vec3 at = box_center(&d->box);
-	if (c->kind == CAMERA_PERSPECTIVE) {
-		double size = box_diagonal(&d->box);
-		double z = vec3_dot(vec3_sub(at, c->eye), c->ahead) - 0.5 * size;
-		at = vec3_along(c->eye, fmax(z, 1e-2 * size), c->ahead);
-	}
-	return camera_pixel(c, at);
-}
-
-static const struct shape_mesh *finest(const struct shape *x)
-{
-	return x->fine.chord > 0 && x->fine.chord <= x->coarse.chord ? &x->fine : &x->coarse;
-}
-
-/* What was last seen at rest is not too much to be moved. */
-static bool fine_is_quick(struct shape *const *solid, int n)
-{
-	double sum = 0;
-	for (int i = 0; i < n; i++)
-		sum += finest(solid[i])->triangles;
-	return sum <= MOVING_TRIANGLES;
-}
-
-static enum status make_triangles(struct drawing *d, double pixel)
-{
-	struct shape **solid = calloc((size_t)d->n_shown + 1, sizeof *solid);
-	int n = 0;
-	if (!solid)
-		return report_error(d->report, ST_RESOURCE, "cannot draw: memory ran out");
-	for (int i = 0; i < d->n_shown; i++)
-		if (d->in_view[i] && look_of(d, d->things[i]) != LOOK_WIRE)
-			solid[n++] = d->shown[i];
-	enum status st = shapes_cut_coarse(&d->view->shapes, solid, n,
-	                                   coarse_chord * box_diagonal(&d->box), MOVING_TRIANGLES);
-	d->fine = st == ST_OK && (!d->state->moving || fine_is_quick(solid, n));
-	if (st == ST_OK && !d->state->moving)
-		st = shapes_cut(solid, n, false, chord_px * pixel, FINE_TRIANGLES, cut_seconds,
-		                &d->more);
-	free((void *)solid);
-	return st == ST_OK ? st : report_error(d->report, st, "cannot draw: %s", status_text(st));
-}
-
-static void set_eye(const struct drawing *d, const GLint *u, struct vec3 origin)
-{
-	const struct camera *c = &d->camera;
-	struct vec3 eye = vec3_sub(c->eye, origin), back = vec3_scale(c->ahead, -1);
-	if (c->kind == CAMERA_ORTHOGRAPHIC)
-		glUniform4f(u[UNIFORM_EYE], (float)back.x, (float)back.y, (float)back.z, 0);
-	else
-		glUniform4f(u[UNIFORM_EYE], (float)eye.x, (float)eye.y, (float)eye.z, 1);
-}
-
-static void set_vector(GLint at, struct vec3 v)
-{
-	glUniform3f(at, (float)v.x, (float)v.y, (float)v.z);
-}
-
-/* Does the file say how it looks? Black is what CAD systems write for "as the pen is". */
-static struct rgb surface_color(const struct Ful *f)
-{
-	struct rgb c = f->display.color;
-	return f->display.has_color && c.r + c.g + c.b > 0.15 ? c : plain_surface;
-}
-
-/* Are its triangles so small that light at their corners does? */
-static bool is_small(const struct drawing *d, const struct shape *x, const struct shape_mesh *m)
-{
-	const double across = box_diagonal(&x->box) / drawing_pixel(d, x->origin);
-	return across * across <= small_triangle * m->triangles;
-}
-
-static void count_triangles(struct view *v, int n)
-{
-	const int before = v->triangles / FLUSHED;
-	v->triangles += n;
-	if (v->triangles / FLUSHED > before)
-		glFlush();
-}
-
-static void draw_surface(struct drawing *d, const struct Ful *f, struct shape *x)
-{
-	const struct shape_mesh *m = d->fine ? finest(x) : &x->coarse;
-	const bool map = look_of(d, f) == LOOK_MAP;
-	const bool quick = d->state->moving && !map && is_small(d, x, m);
-	const enum program program = quick ? PROGRAM_QUICK : PROGRAM_SURFACE;
-	const struct sight *s = world_sight((struct world *)d->world);
-	const struct rgb color = surface_color(f);
-	const double shine = (s->specular.r + s->specular.g + s->specular.b) / 3 *
-	                     (highlight + 0.5 * s->reflectivity);
-	float matrix[16];
-	if (!m->gpu.n || m->failed)
-		return;
-	const GLint *u = program_use(d->frame.programs, program);
-	gpu_matrix(&d->frame, x->origin, matrix);
-	glUniformMatrix4fv(u[UNIFORM_MATRIX], 1, GL_FALSE, matrix);
-	set_eye(d, u, x->origin);
-	glUniform4f(u[UNIFORM_COLOR], (float)rgb_to_linear(color.r), (float)rgb_to_linear(color.g),
-	            (float)rgb_to_linear(color.b), 1);
-	set_vector(u[UNIFORM_LIGHT], d->light);
-	set_vector(u[UNIFORM_FILL], d->fill);
-	set_vector(u[UNIFORM_SKY], d->sky);
-	glUniform4f(u[UNIFORM_STRENGTH], (float)ambient, (float)(diffuse * s->light_intensity),
-	            (float)(shine * s->light_intensity), (float)sharpness);
-	glUniform1f(u[UNIFORM_SCALE], (float)d->frame.scale);
-	glUniform1i(u[UNIFORM_LOOK], map && map_use(d, f->id));
-	glBindVertexArray(m->gpu.array);
-	glUniform1f(u[UNIFORM_BIAS], 0);
-	glDrawElements(GL_TRIANGLES, m->gpu.n, GL_UNSIGNED_INT, NULL);
-	count_triangles(d->view, m->triangles);
-	/* Chords of neighbours part by less than a px: borders are as wide, a little behind. */
-	glUniform1f(u[UNIFORM_BIAS], (float)(border_back * d->frame.pixel_depth));
-	glDrawElements(GL_LINES, m->gpu.n_border, GL_UNSIGNED_INT,
-	               (const void *)((size_t)m->gpu.n * sizeof(unsigned)));
-	glBindVertexArray(0);
-}
-
-static void draw_surfaces(struct drawing *d)
-{
-	glDisable(GL_BLEND);
-	glEnable(GL_DEPTH_TEST);
-	glDepthFunc(GL_LESS);
-	glDepthMask(GL_TRUE);
-	d->view->triangles = 0;
-	/* triangles step back by their slope, so that lines on them are whole */
-	glEnable(GL_POLYGON_OFFSET_FILL);
-	glPolygonOffset(1.5F, 2);
-	for (int i = 0; i < d->n_shown; i++)
-		if (d->in_view[i] && look_of(d, d->things[i]) != LOOK_WIRE)
-			draw_surface(d, d->things[i], d->shown[i]);
-	glDisable(GL_POLYGON_OFFSET_FILL);
+	const struct Ful *f = d->things[i];
+	const struct shape *x = d->shown[i];
+	const double across = box_diagonal(&x->box) / drawing_pixel(d, x->origin) / d->frame.scale;
+	const bool marked = f->id == d->state->chosen || f->id == d->state->hover_thing;
+	return (struct detail){ across >= wire_least[d->state->moving],
+		                marked || across >= edge_least[d->state->moving] ||
+		                        surface_look_of(d, f) == LOOK_WIRE };
 }
 
 static void draw(struct drawing *d, int i, enum shape_lines which, struct gpu_style style)
@@ -181,7 +37,7 @@ static void draw(struct drawing *d, int i, enum shape_lines which, struct gpu_st
 	if (d->state->moving && which < (int)N_MOVED_LINES && !(style.dash[1] > 0))
 		gpu_draw_ribbon(&d->frame, &x->moved_lines[which], x->origin, &style);
 	else
-		gpu_draw_lines(&d->frame, &x->lines[which], &x->poly[which], &style);
+		gpu_draw_lines(&d->frame, shape_lines(x, which), &x->poly[which], &style);
 }
 
 static void draw_wires(struct drawing *d)
@@ -191,7 +47,7 @@ static void draw_wires(struct drawing *d)
 		const struct Ful *f = d->things[i];
 		if (f->entity.kind != ENTITY_SURFACE || !d->in_view[i])
 			continue;
-		const enum surface_look look = look_of(d, f);
+		const enum surface_look look = surface_look_of(d, f);
 		const bool own =
 		        look == LOOK_WIRE && f->display.has_color &&
 		        f->display.color.r + f->display.color.g + f->display.color.b > 0.15;
@@ -221,8 +77,11 @@ static void draw_wires(struct drawing *d)
 				                   .lift = LIFT_RESULT };
 		if (f->id == d->state->hover_thing && d->state->hover_point < 0)
 			edge.width += 1;
-		draw(d, i, SHAPE_WIRE, wire);
-		draw(d, i, SHAPE_EDGE, edge);
+		const struct detail seen = detail_of(d, i);
+		if (seen.wire)
+			draw(d, i, SHAPE_WIRE, wire);
+		if (seen.edge)
+			draw(d, i, SHAPE_EDGE, edge);
 	}
 }
 
@@ -244,8 +103,8 @@ static void draw_curve(struct drawing *d, int i, bool current)
 	hidden.dash[1] = 3;
 	hidden.alpha = 0.5;
 	glDepthFunc(GL_GREATER);
-	gpu_draw_lines(&d->frame, &d->shown[i]->lines[SHAPE_CURVE], &d->shown[i]->poly[SHAPE_CURVE],
-	               &hidden);
+	gpu_draw_lines(&d->frame, shape_lines(d->shown[i], SHAPE_CURVE),
+	               &d->shown[i]->poly[SHAPE_CURVE], &hidden);
 	glDepthFunc(GL_LEQUAL);
 	if (current) {
 		struct gpu_style casing = line;
@@ -312,8 +171,8 @@ static void draw_nets(struct drawing *d)
 			                    .lift = LIFT_POINT };
 		if (!list)
 			draw(d, i, SHAPE_NET, net);
-		gpu_draw_sprites(&d->frame, &d->shown[i]->lines[SHAPE_POINTS], d->shown[i]->origin,
-		                 &point);
+		gpu_draw_sprites(&d->frame, shape_lines(d->shown[i], SHAPE_POINTS),
+		                 d->shown[i]->origin, &point);
 	}
 }
 
@@ -339,17 +198,26 @@ void hover_draw(struct drawing *d)
 	}
 }
 
+static bool has_lines(const struct drawing *d, int i)
+{
+	const struct Ful *f = d->things[i];
+	const struct detail seen = detail_of(d, i);
+	return f->entity.kind != ENTITY_SURFACE || seen.wire || seen.edge || f->display.net ||
+	       f->display.porcupine;
+}
+
 enum status scene_draw(struct drawing *d)
 {
-	const double pixel = smallest_pixel(d);
-	enum status st = make_triangles(d, pixel);
+	const double pixel = surfaces_pixel(d);
+	enum status st = surfaces_make(d, pixel);
 	for (int i = 0; i < d->n_shown && st == ST_OK; i++) {
 		struct shape *x = d->shown[i];
-		if (!d->in_view[i])
+		if (!d->in_view[i] || !has_lines(d, i))
 			continue;
 		/* while moving the lines that there are do */
 		if (!d->state->moving || !(x->tolerance > 0) || x->tolerance >= 8 * line_px * pixel)
-			st = shape_make_lines(x, d->world, d->things[i], line_px * pixel);
+			st = shape_make_lines(x, d->world, d->things[i], detail_of(d, i).wire,
+			                      line_px * pixel);
 		if (st == ST_OK && d->state->moving)
 			st = shape_make_moved_lines(x, moved_line_px * pixel);
 		if (st != ST_OK)
@@ -357,7 +225,9 @@ enum status scene_draw(struct drawing *d)
 	}
 	if (st != ST_OK)
 		return st;
-	draw_surfaces(d);
+	st = surfaces_draw(d, pixel);
+	if (st != ST_OK)
+		return st;
 	glEnable(GL_DEPTH_TEST);
 	glDepthFunc(GL_LEQUAL);
 	glDepthMask(GL_FALSE);

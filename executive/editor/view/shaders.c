@@ -38,7 +38,7 @@ static const char surface_vertex[] = "#version 330 core\n"
 	"{\n"                                                                                      \
 	"	return normalize(eye.xyz - eye.w * place);\n"                                            \
 	"}\n"                                                                                      \
-	"vec3 lit(vec3 n, vec3 to_eye)\n" /* n: towards the eye */                                 \
+	"vec3 lit(vec3 color, vec3 n, vec3 to_eye)\n" /* n: towards the eye */                     \
 	"{\n"                                                                                      \
 	"	float facing = dot(n, to_eye);\n"                                                        \
 	"	float scattered = strength.x * (0.7 + 0.3 * dot(n, sky)) *\n"                            \
@@ -50,7 +50,7 @@ static const char surface_vertex[] = "#version 330 core\n"
 	"		scattered += strength.y * slope;\n"                                                     \
 	"		shine = strength.z * pow(half_way, strength.w);\n"                                      \
 	"	}\n"                                                                                     \
-	"	return srgb(color.rgb * scattered + shine);\n"                                           \
+	"	return srgb(color * scattered + shine);\n"                                               \
 	"}\n"
 
 /*
@@ -110,20 +110,21 @@ static const char surface_fragment[] =
         "		result = vec4(mapped(value()) * (1.0 - 0.14 * rim * rim), 1.0);\n"
         "		return;\n"
         "	}\n"
-        "	result = vec4(lit(n, to_eye), color.a);\n"
+        "	result = vec4(lit(color.rgb, n, to_eye), color.a);\n"
         "}\n";
 
 /* The same where triangles are as small as pixels: lit at their corners. */
 static const char quick_vertex[] = "#version 330 core\n"
                                    "layout(location = 0) in vec3 position;\n"
                                    "layout(location = 1) in vec3 normal;\n"
+                                   "layout(location = 3) in vec3 tint;\n"
                                    "uniform mat4 matrix;\n"
                                    "uniform float bias;\n"
                                    "noperspective out vec3 shade;\n" LIGHTING "void main()\n"
                                    "{\n"
                                    "	vec3 to_eye = seen_from(position);\n"
                                    "	vec3 n = dot(normal, to_eye) < 0.0 ? -normal : normal;\n"
-                                   "	shade = lit(n, to_eye);\n"
+                                   "	shade = lit(tint, n, to_eye);\n"
                                    "	gl_Position = matrix * vec4(position, 1.0);\n"
                                    "	gl_Position.z += bias * gl_Position.w;\n"
                                    "}\n";

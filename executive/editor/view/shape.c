@@ -25,6 +25,7 @@ static void shape_destroy(struct shape *x)
 		return;
 	shape_empty(x);
 	gpu_mesh_finish(&x->coarse.gpu);
+	mesh_made_finish(&x->coarse.made);
 	gpu_mesh_finish(&x->fine.gpu);
 	for (int k = 0; k < N_SHAPE_LINES; k++) {
 		poly_finish(&x->poly[k]);
@@ -45,11 +46,30 @@ void shapes_finish(struct shapes *s)
 	*s = (struct shapes){ .all = NULL };
 }
 
-struct shape *shapes_find(const struct shapes *s, int id)
+struct gpu_poly *shape_lines(struct shape *x, enum shape_lines which)
 {
-	for (int i = 0; i < s->n; i++)
-		if (s->all[i]->id == id)
-			return s->all[i];
+	if (!x->lines_loaded[which])
+		gpu_poly_load(&x->lines[which], &x->poly[which]);
+	x->lines_loaded[which] = true;
+	return &x->lines[which];
+}
+
+const struct gpu_mesh *shape_mesh_gpu(struct shape_mesh *m)
+{
+	if (!m->loaded)
+		gpu_mesh_load(&m->gpu, &m->made);
+	m->loaded = true;
+	return &m->gpu;
+}
+
+struct shape *shapes_find(const struct shapes *s, int id, int near)
+{
+	for (int away = 0; away < s->n + near; away++) {
+		const int at[2] = { near - away, near + away };
+		for (int k = 0; k < 2; k++)
+			if (at[k] >= 0 && at[k] < s->n && s->all[at[k]]->id == id)
+				return s->all[at[k]];
+	}
 	return NULL;
 }
 
@@ -128,6 +148,7 @@ static enum status append(struct shapes *s, const struct Ful *f, struct shape **
 	x->id = f->id;
 	x->revision = f->revision - 1;
 	s->all[s->n++] = *out = x;
+	s->newest = f->id > s->newest ? f->id : s->newest;
 	return ST_OK;
 }
 
@@ -139,8 +160,7 @@ enum status shapes_update(struct shapes *s, const struct world *w)
 	for (int k = 0; k < world_count(w) && st == ST_OK; k++) {
 		const struct Ful *f = world_at(w, k);
 		/* they mostly stand in the same order */
-		struct shape *x =
-		        k < s->n && s->all[k]->id == f->id ? s->all[k] : shapes_find(s, f->id);
+		struct shape *x = f->id > s->newest ? NULL : shapes_find(s, f->id, k);
 		if (!x)
 			st = append(s, f, &x);
 		if (st == ST_OK && x->revision != f->revision)
@@ -169,10 +189,10 @@ const struct ray_scene *shape_rays(struct shape *x)
 }
 
 /* Isoparametric lines and borders; a border that is one point is no line. */
-static void surface_lines(struct shape *x, const struct display *d, double tolerance)
+static void surface_lines(struct shape *x, const struct display *d, bool wires, double tolerance)
 {
 	const struct surface *s = &x->surface;
-	const int inner[2] = { d->lines_u, d->lines_v };
+	const int inner[2] = { wires ? d->lines_u : 0, wires ? d->lines_v : 0 };
 	for (int k = 0; k < 2; k++) {
 		const double *range = s->domain[k];
 		for (int i = 1; i <= inner[k]; i++)
@@ -268,23 +288,26 @@ static void list_points(struct shape *x, const struct point_list *list)
 static bool same_display(const struct display *a, const struct display *b)
 {
 	return a->segments == b->segments && a->lines_u == b->lines_u && a->lines_v == b->lines_v &&
-	       a->porcupine == b->porcupine && a->quill == b->quill && a->quills == b->quills;
+	       a->porcupine == b->porcupine && a->quill == b->quill && a->quills == b->quills &&
+	       a->net == b->net;
 }
 
 enum status shape_make_lines(struct shape *x, const struct world *w, const struct Ful *f,
-                             double tolerance)
+                             bool wires, double tolerance)
 {
 	const struct entity *e = &f->entity;
 	const struct Ful *on = f->on ? world_by_id(w, f->on) : NULL;
 	const unsigned on_revision = on ? on->revision : 0;
 	if (x->tolerance > 0 && x->tolerance <= 1.5 * tolerance && x->tolerance >= tolerance / 8 &&
-	    same_display(&x->made_for, &f->display) && x->on_revision == on_revision)
+	    same_display(&x->made_for, &f->display) && x->on_revision == on_revision &&
+	    (x->has_wires || !wires))
 		return ST_OK;
 	for (int k = 0; k < N_SHAPE_LINES; k++)
 		poly_reset(&x->poly[k], x->origin);
 	if (e->kind == ENTITY_SURFACE) {
-		surface_lines(x, &f->display, tolerance);
-		surface_net(x);
+		surface_lines(x, &f->display, wires, tolerance);
+		if (f->display.net)
+			surface_net(x);
 		if (f->display.porcupine)
 			surface_combs(x, &f->display);
 	} else if (e->kind == ENTITY_POINTS) {
@@ -296,10 +319,11 @@ enum status shape_make_lines(struct shape *x, const struct world *w, const struc
 	for (int k = 0; k < N_SHAPE_LINES; k++) {
 		if (x->poly[k].failed)
 			st = ST_RESOURCE;
-		gpu_poly_load(&x->lines[k], &x->poly[k]);
+		x->lines_loaded[k] = false;
 	}
 	x->tolerance = tolerance;
 	x->moved_tolerance = 0;
+	x->has_wires = wires;
 	x->made_for = f->display;
 	x->on_revision = on_revision;
 	return st;

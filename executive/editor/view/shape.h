@@ -24,6 +24,8 @@ enum shape_lines {
 /* Triangles, and how far they may be from the surface; 0: none yet. */
 struct shape_mesh {
 	struct gpu_mesh gpu;
+	struct mesh_made made; /* kept of the coarse ones */
+	bool loaded;           /* gpu has what was made */
 	double chord;
 	int triangles;
 	bool failed; /* cannot be cut: nothing is drawn of it */
@@ -42,11 +44,13 @@ struct shape {
 	struct shape_mesh coarse, fine;
 	struct poly poly[N_SHAPE_LINES];
 	struct gpu_poly lines[N_SHAPE_LINES];
+	bool lines_loaded[N_SHAPE_LINES];
 	struct poly
 	        moved_poly[N_MOVED_LINES]; /* what is drawn of them while something is dragged */
 	struct gpu_ribbon moved_lines[N_MOVED_LINES];
 	double moved_tolerance;  /* of these; 0: none yet */
 	double tolerance;        /* of the lines; 0: none yet */
+	bool has_wires;          /* among the lines */
 	struct display made_for; /* what the lines were made for */
 	unsigned on_revision;    /* of the surface that the curve lies on */
 };
@@ -54,17 +58,24 @@ struct shape {
 struct shapes {
 	struct shape **all; /* owned, and each of them */
 	int n, room;
+	int newest;          /* id of those that were ever there */
 	double coarse_chord; /* at which all are few enough; 0: not known */
 };
 void shapes_finish(struct shapes *s);
 
 /* Take over what changed in the world, forget what is gone. Errors: ST_RESOURCE. */
 enum status shapes_update(struct shapes *s, const struct world *w);
-struct shape *shapes_find(const struct shapes *s, int id); /* NULL: none */
+/* NULL: none. near: where it may be, its place in the world. */
+struct shape *shapes_find(const struct shapes *s, int id, int near);
 
-/* Lines within tolerance (file units), but not twice as good for nothing. Errors: ST_RESOURCE. */
+/* In the graphics memory when they are first drawn. */
+struct gpu_poly *shape_lines(struct shape *x, enum shape_lines which);
+const struct gpu_mesh *shape_mesh_gpu(struct shape_mesh *m);
+
+/* Lines within tolerance (file units), but not twice as good for nothing; wires: those inside a surface
+ * too. Errors: ST_RESOURCE. */
 enum status shape_make_lines(struct shape *x, const struct world *w, const struct Ful *f,
-                             double tolerance);
+                             bool wires, double tolerance);
 
 /* Those lines with fewer chords, from what was made of them. Errors: ST_RESOURCE. */
 enum status shape_make_moved_lines(struct shape *x, double tolerance);
@@ -72,11 +83,12 @@ enum status shape_make_moved_lines(struct shape *x, double tolerance);
 /* Rays against the surface; NULL where it has none or memory ran out. */
 const struct ray_scene *shape_rays(struct shape *x);
 
-/* Bring the triangles of n shapes near enough for chord, all threads; most: of triangles, about.
+/* Bring the triangles of n shapes near enough for chord, all threads; most: of triangles, about. The
+ * bends of shapes of less than some tens of `seen` in size count less.
  * Stops between shapes when `seconds` have passed; *more: not all was done.
  * Errors: ST_RESOURCE. */
-enum status shapes_cut(struct shape *const *shapes, int n, bool coarse, double chord, int most,
-                       double seconds, bool *more);
+enum status shapes_cut(struct shape *const *shapes, int n, bool coarse, double chord, double seen,
+                       int most, double seconds, bool *more);
 
 /* The coarse triangles of n shapes: chord, or more until they are `most` at most, once for all. */
 enum status shapes_cut_coarse(struct shapes *s, struct shape *const *shapes, int n, double chord,

@@ -25,6 +25,7 @@ struct view_state {
 	double scale; /* device px a logical px */
 	int place; /* of several drawn one after another each keeps its picture: 0 to VIEW_PLACES - 1 */
 	bool moving;  /* being dragged: at most about 100,000 triangles, no multisampling */
+	bool whole;   /* at rest: all triangles are made, however long it takes */
 	int only;     /* id of the one thing shown, 0: all that are on */
 	int quantity; /* enum quantity for LOOK_MAP, -1: as the overlay says */
 	bool axes;    /* small cross of axes in the corner */

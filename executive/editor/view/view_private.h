@@ -75,11 +75,19 @@ struct still {
 	bool is_image;
 };
 
+/* Small surfaces in one mesh, for frames while something is dragged. */
+struct batch {
+	struct gpu_mesh gpu;
+	struct vec3 origin;
+	uint64_t of; /* what it is made of; 0: nothing */
+};
+
 struct view {
 	struct programs programs;
 	struct target fine, plain; /* with and without multisampling */
 	struct still stills[VIEW_PLACES];
 	struct shapes shapes;
+	struct batch batch;
 	struct map *maps;         /* owned */
 	struct result *results;   /* owned */
 	struct image *images;     /* owned */
@@ -110,7 +118,9 @@ struct drawing {
 	struct shape **shown;      /* owned; surfaces and curves that are on */
 	const struct Ful **things; /* owned; the same */
 	bool *in_view;             /* owned; of those, which may be in the picture */
+	bool *in_batch;            /* owned; of those, which the batch has */
 	int n_shown;
+	bool has_batch; /* it is drawn */
 	bool fine;      /* the fine triangles are drawn, of those that have them */
 	bool has_map;   /* some surface shows values */
 	bool has_image; /* an image stands in place of the things */
@@ -168,6 +178,17 @@ void texts_finish(struct view *v);
 void marks_draw(struct drawing *d);
 void light_draw(struct drawing *d);
 void axes_draw(struct drawing *d);
+
+/* surfaces.c: triangles of all that is in view, then drawn. Length of the smallest pixel on them. */
+double surfaces_pixel(const struct drawing *d);
+enum status surfaces_make(struct drawing *d, double pixel);
+enum status surfaces_draw(struct drawing *d, double pixel);
+/* How a surface is drawn now: a map without values is a wire frame. */
+enum surface_look surface_look_of(const struct drawing *d, const struct Ful *f);
+struct rgb surface_color(const struct Ful *f);
+
+/* batch.c: which surfaces are drawn at once, and their mesh. Errors: ST_RESOURCE. */
+enum status batch_make(struct drawing *d, double pixel);
 
 /* scene.c: the things themselves. */
 enum status scene_draw(struct drawing *d);
