@@ -275,13 +275,65 @@ static void test_small_many(void **state)
 	free(parent);
 }
 
+/* Two edges leave a corner along one line, so that its normals are those of a fan: angles beside it are decided there,
+ * those in it end in the corner. */
+static void test_corner(void **state)
+{
+	(void)state;
+	const double height[3][3] = { { 0, 0, 0.4 }, { 0, 0.7, 0.1 }, { 0.2, 0.9, -0.3 } };
+	const struct vec3 light = vec3_unit(vec3(0.1, 0.3, 0.9));
+	struct surface s;
+	int ended = 0, clear = 0;
+	assert_int_equal(surface_init(&s, (const int[2]){ 3, 3 }, (const int[2]){ 3, 3 }), ST_OK);
+	for (int d = 0; d < 2; d++)
+		for (int i = 0; i < 6; i++)
+			s.knots[d][i] = i / 3;
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < 3; j++)
+			surface_set_point(&s, i, j,
+			                  vec3(i + 0.5 * j * (1 + (i > 0)),
+			                       i * 0.2 * (i - 1) + j * (j - 1) * 0.8 + i * j * 0.5,
+			                       height[i][j]),
+			                  1);
+	assert_int_equal(surface_check(&s, "corner", NULL), ST_OK);
+	double lo = 1, hi = -1;
+	for (int k = 0; k <= 200; k++) {
+		const double a = 0.5 * pi * k / 200;
+		const double f =
+		        field_at(&s, LEVEL_ISOPHOTE, light, 0, 1e-5 * cos(a), 1e-5 * sin(a));
+		lo = fmin(lo, f);
+		hi = fmax(hi, f);
+	}
+	assert_true(hi - lo > 0.1);
+	for (int degrees = 1; degrees < 180; degrees += 3) {
+		const double value = cosine(degrees);
+		struct level_result x;
+		if (fabs(value - lo) < 1e-3 || fabs(value - hi) < 1e-3)
+			continue;
+		assert_int_equal(shape_trace(&s, LEVEL_ISOPHOTE, light, value, 1e-5, &x, NULL),
+		                 ST_OK);
+		if (value > lo && value < hi) {
+			assert_int_equal(x.n_undecided, 1);
+			assert_int_equal(x.undecided[0].kind, LEVEL_SINGULAR);
+			assert_true(x.undecided[0].ends > 0);
+			ended++;
+		} else {
+			assert_int_equal(x.n_undecided, 0);
+			clear++;
+		}
+		level_result_finish(&x);
+	}
+	assert_true(ended > 3 && clear > 3);
+	surface_finish(&s);
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(test_sphere),     cmocka_unit_test(test_torus),
 		cmocka_unit_test(test_change),     cmocka_unit_test(test_forms),
 		cmocka_unit_test(test_grid),       cmocka_unit_test(test_small),
-		cmocka_unit_test(test_small_many),
+		cmocka_unit_test(test_small_many), cmocka_unit_test(test_corner),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

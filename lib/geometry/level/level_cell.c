@@ -339,10 +339,10 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 		return;
 	form_range(c, t->n_field, &lo, &hi);
 	double most = larger(-lo, hi);
-	bool large = cell.level[0] + cell.level[1] < LARGE_LEVELS;
+	const int levels = cell.level[0] + cell.level[1];
+	bool large = levels < LARGE_LEVELS;
 	const bool coarse = cell_coarse(&cell, most);
-	if (coarse && (cell.level[0] + cell.level[1]) % AGAIN_LEVELS == 0 &&
-	    cell_again(t, c, cell, depth))
+	if (coarse && levels % AGAIN_LEVELS == 0 && cell_again(t, c, cell, depth))
 		return;
 	if (most <= cell.error || (large && most <= ZERO_SHARE * t->bound.size)) {
 		undecided_add(t, &cell, true);
@@ -358,6 +358,8 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 		one_side = lo > t->side_error;
 	}
 	if (coarse && one_side && cell_monotone(t, &cell, c) && cell_again(t, c, cell, depth))
+		return;
+	if (levels > 0 && levels % AGAIN_LEVELS == 0 && level_isophote_clear(t, &cell))
 		return;
 	if (one_side && cell_decide(t, &cell, c))
 		return;

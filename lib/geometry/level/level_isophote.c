@@ -31,40 +31,47 @@ size_t level_isophote_room(const struct level *l)
 {
 	const int n = l->oblique ? 2 * l->surface->root->degree : 0;
 	return l->oblique ? FORMS_MAX * form_count(n, n)
-	       : l->side  ? FORMS_SQUARES * form_count(l->surface->degree[0], l->surface->degree[1])
-	                  : 1;
+	       : level_needs_normals(l->surface->kind)
+	               ? FORMS_SQUARES * form_count(l->surface->degree[0], l->surface->degree[1])
+	               : 1;
 }
+
+/* Coefficients of a normal's components, `step` numbers apart; one of them may be left out (count: none). */
+struct cone_points {
+	const double *n[3];
+	size_t step, count, without;
+};
 
 /*
  * All normals' coefficients, and so all normals, lie inside the cone of the angle about the light,
  * or all beyond one plane that touches it.
  */
-static bool cone_excludes(const struct tracer *t, size_t count)
+static bool cone_excludes(const struct level *l, const struct cone_points *p, double error)
 {
-	const double c = fabs(t->level->value), s = t->level->sine;
-	const double sign = t->level->value < 0 ? -1 : 1;
-	const double error = 3 * t->level->surface->normal_error[t->patch];
+	const double c = fabs(l->value), s = l->sine;
+	const double sign = l->value < 0 ? -1 : 1;
 	double mx = 0, my = 0;
 	bool inside = true;
-	for (size_t i = 0; i < count; i++) {
-		const double *n = t->normals + 4 * i;
-		double z = s * sign * n[2] - error;
-		mx += n[0];
-		my += n[1];
-		if (!(z > 0 && z * z > c * c * (n[0] * n[0] + n[1] * n[1]) * (1 + 1e-12)))
+	for (size_t i = 0; i < p->count; i++) {
+		const double x = p->n[0][p->step * i], y = p->n[1][p->step * i];
+		const double z = s * sign * p->n[2][p->step * i] - error;
+		mx += x;
+		my += y;
+		if (i != p->without && !(z > 0 && z * z > c * c * (x * x + y * y) * (1 + 1e-12)))
 			inside = false;
 	}
 	if (inside)
 		return true;
-	double l = hypot(mx, my);
-	if (!(l > 0))
+	double length = hypot(mx, my);
+	if (!(length > 0))
 		return false;
-	mx *= c / l;
-	my *= c / l;
-	for (size_t i = 0; i < count; i++) {
-		const double *n = t->normals + 4 * i;
-		double beyond = mx * n[0] + my * n[1] - sign * s * n[2];
-		if (!(beyond > error + 1e-12 * (fabs(n[0]) + fabs(n[1]) + fabs(n[2]))))
+	mx *= c / length;
+	my *= c / length;
+	for (size_t i = 0; i < p->count; i++) {
+		const double x = p->n[0][p->step * i], y = p->n[1][p->step * i];
+		const double z = p->n[2][p->step * i];
+		const double beyond = mx * x + my * y - sign * s * z;
+		if (i != p->without && !(beyond > error + 1e-12 * (fabs(x) + fabs(y) + fabs(z))))
 			return false;
 	}
 	return true;
@@ -118,7 +125,6 @@ static struct form component_in(struct tracer *t, const struct cell *cell, int k
 				memcpy(f.c, lower.c, sizeof *f.c * count);
 		}
 	f.b = (struct bound){ form_most(f.c, count), error };
-	form_scale(f.c, f.m, f.n, s->binomial, false);
 	return f;
 }
 
@@ -129,10 +135,49 @@ bool level_isophote_again(struct tracer *t, const struct cell *cell, double *out
 		return false;
 	t->n_product = 0;
 	struct form n[3], lower = form_new(t, s->degree[0], s->degree[1]);
-	for (int k = 0; k < 3; k++)
+	for (int k = 0; k < 3; k++) {
 		n[k] = component_in(t, cell, k, lower);
+		form_scale(n[k].c, n[k].m, n[k].n, s->binomial, false);
+	}
 	*b = squares_make(t, n, out);
 	return true;
+}
+
+/* The coefficient in the corner of the patch that is a corner of the cell, too; false: none. */
+static bool corner_of(const struct level_surface *s, const struct cell *cell, size_t *at)
+{
+	bool upper[2];
+	for (int d = 0; d < 2; d++) {
+		upper[d] = cell->index[d] > 0;
+		if (upper[d] && cell->index[d] != (1u << cell->level[d]) - 1)
+			return false;
+	}
+	*at = (upper[0] ? (size_t)s->degree[0] * (s->degree[1] + 1) : 0) +
+	      (upper[1] ? (size_t)s->degree[1] : 0);
+	return true;
+}
+
+bool level_isophote_clear(struct tracer *t, const struct cell *cell)
+{
+	const struct level_surface *s = t->level->surface;
+	size_t corner;
+	if ((s->kind != LEVEL_ISOPHOTE && s->kind != LEVEL_SILHOUETTE) ||
+	    !corner_of(s, cell, &corner))
+		return false;
+	const double *c = t->normals + 4 * corner;
+	if (vec3_length(vec3_of(c)) >
+	    larger(3 * s->normal_error[t->patch], ZERO_SHARE * level_normal_bound(t).size))
+		return false;
+	t->n_product = 0;
+	struct form n[3], lower = form_new(t, s->degree[0], s->degree[1]);
+	double error = 0;
+	for (int k = 0; k < 3; k++) {
+		n[k] = component_in(t, cell, k, lower);
+		error += n[k].b.error;
+	}
+	const size_t count = form_count(s->degree[0], s->degree[1]);
+	const struct cone_points p = { { n[0].c, n[1].c, n[2].c }, 1, count, corner };
+	return cone_excludes(t->level, &p, error);
 }
 
 /* z - c s, or the squares, which have a lower degree, where s is not near enough. */
@@ -165,7 +210,10 @@ bool level_isophote_make(struct tracer *t, double *out)
 {
 	const struct level_surface *s = t->level->surface;
 	struct form n[3];
-	if (cone_excludes(t, form_count(s->degree[0], s->degree[1])))
+	const double *at = t->normals;
+	const size_t count = form_count(s->degree[0], s->degree[1]);
+	const struct cone_points p = { { at, at + 1, at + 2 }, 4, count, count };
+	if (cone_excludes(t->level, &p, 3 * s->normal_error[t->patch]))
 		return false;
 	t->n_product = 0;
 	for (int k = 0; k < 3; k++)

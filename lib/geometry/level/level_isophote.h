@@ -13,6 +13,12 @@ bool level_isophote_make(struct tracer *t, double *out);
 /* f once more in a cell, from the normals there, and its bound: the smaller f's terms are there, the nearer. What
  * evaluating f there is off is in it. False where f is not made of squares. */
 bool level_isophote_again(struct tracer *t, const struct cell *cell, double *out, struct bound *b);
+
+/* The cell is a corner of the patch where the normal vanishes, and all others in it are away from the angle: nothing but
+ * that corner keeps f from having a sign. Silhouettes, too. */
+bool level_isophote_clear(struct tracer *t, const struct cell *cell);
+
+/* What t->product must hold. */
 size_t level_isophote_room(const struct level *l);
 
 #endif
