@@ -31,9 +31,6 @@ const struct level_shape level_shapes[N_LEVEL_KINDS] = {
 	[LEVEL_CURVATURE] = { { 4, 4 }, { 0, 0 }, .valued = true, .several = true },
 };
 
-/* Above this order of a rational surface lines of curvature have a degree above FIELD_DEGREE_MAX. */
-enum { CURVATURE_ORDER_RATIONAL = 17 };
-
 /* Right-handed rows of unit vectors, the last along d. */
 static void frame_make(struct vec3 d, double frame[3][3])
 {
@@ -369,23 +366,6 @@ static enum status level_new(struct level **out, struct level_surface *s, bool o
 	return ST_OK;
 }
 
-static bool curvature_wrong(const struct surface *s, enum quantity quantity, const struct report *r)
-{
-	const int order = s->order[0] > s->order[1] ? s->order[0] : s->order[1];
-	if (quantity == QUANTITY_ABSOLUTE || quantity >= N_QUANTITIES)
-		report_error(
-		        r, ST_PARAMETER,
-		        "lines of constant absolute curvature are not traced; take kmax or kmin");
-	else if (s->rational && order > CURVATURE_ORDER_RATIONAL)
-		report_error(r, ST_PARAMETER,
-		             "order %d is above %d, the highest for lines of constant curvature on "
-		             "a rational surface; lower the degree",
-		             order, CURVATURE_ORDER_RATIONAL);
-	else
-		return false;
-	return true;
-}
-
 enum status level_create(struct level **out, const struct surface *s,
                          const struct level_field *field, double tolerance, const struct report *r)
 {
@@ -400,8 +380,12 @@ enum status level_create(struct level **out, const struct surface *s,
 	if (!(tolerance > 0) || !isfinite(tolerance))
 		return report_error(r, ST_PARAMETER,
 		                    "tolerance %g, expected a length greater than 0", tolerance);
-	if (field->kind == LEVEL_CURVATURE && curvature_wrong(s, field->quantity, r))
-		return ST_PARAMETER;
+	if (field->kind == LEVEL_CURVATURE &&
+	    (field->quantity == QUANTITY_ABSOLUTE || field->quantity >= N_QUANTITIES))
+		return report_error(
+		        r, ST_PARAMETER,
+		        "lines of constant absolute curvature are not traced; take kmax "
+		        "or kmin");
 	enum status st = surface_create(&made, s, field, tolerance);
 	if (st != ST_OK)
 		return report_error(r, st, "no memory for the Bezier patches of a surface");

@@ -90,8 +90,8 @@ static bool gauss_form(struct tracer *t, const struct second_parts *p, struct fo
 	const struct form l = second_dot(t, p->d[DUU], p->n), m = second_dot(t, p->d[DUV], p->n),
 	                  n = second_dot(t, p->d[DVV], p->n);
 	*k = form_new(t, 2 * m.m, 2 * m.n);
-	form_add_product(k, l, n, 1);
-	form_add_square(k, m, -1);
+	second_add_product(t, k, l, n, 1);
+	second_add_product(t, k, m, m, -1);
 	form_tighten(t, k);
 	if (!factors_out(t, k))
 		return false;
@@ -108,9 +108,9 @@ static bool mean_form(struct tracer *t, const struct second_parts *p, struct for
 	                  f = second_dot(t, p->d[DU], p->d[DV]),
 	                  g = second_dot(t, p->d[DV], p->d[DV]);
 	*h = form_new(t, f.m + m.m, f.n + m.n);
-	form_add_product(h, e, n, 1);
-	form_add_product(h, f, m, -2);
-	form_add_product(h, g, l, 1);
+	second_add_product(t, h, e, n, 1);
+	second_add_product(t, h, f, m, -2);
+	second_add_product(t, h, g, l, 1);
 	form_tighten(t, h);
 	return factors_out(t, h);
 }
@@ -149,7 +149,7 @@ static bool field_make(struct tracer *t, struct form *f, struct form *side)
 		if (!gauss_form(t, &p, &k))
 			return false;
 		form_add(t, f, k, 1);
-		form_add_square(f, square, -c);
+		second_add_product(t, f, square, square, -c);
 		return true;
 	}
 	if (!level_root_form(t, &square, &root))

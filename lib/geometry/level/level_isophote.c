@@ -29,7 +29,10 @@ bool level_oblique(const struct level_field *f)
 
 size_t level_isophote_room(const struct level *l)
 {
-	const int n = l->oblique ? 2 * l->surface->root->degree : 0;
+	const int *degree = l->surface->degree;
+	const int m = degree[0] > degree[1] ? degree[0] : degree[1];
+	const int root = l->oblique ? l->surface->root->degree : 0;
+	const int n = l->oblique ? 2 * (m > root ? m : root) : 0;
 	return l->oblique ? FORMS_MAX * form_count(n, n)
 	       : level_needs_normals(l->surface->kind)
 	               ? FORMS_SQUARES * form_count(l->surface->degree[0], l->surface->degree[1])

@@ -16,8 +16,8 @@
 
 enum {
 	NORMAL_DEGREE_MAX = 3 * (ORDER_MAX - 1) - 1,
-	FIELD_DEGREE_MAX = 2 * (NORMAL_DEGREE_MAX + ORDER_MAX - 1),
-	CELL_DEPTH_MAX = 24, /* smallest cell: 2^-24 of a patch */
+	FIELD_DEGREE_MAX = 4 * NORMAL_DEGREE_MAX, /* of lines of curvature; of others half */
+	CELL_DEPTH_MAX = 24,                      /* smallest cell: 2^-24 of a patch */
 	N_SCRATCH = 2 * CELL_DEPTH_MAX + 2,
 	LINE_BITS = CELL_DEPTH_MAX, /* a line in a patch is a multiple of 2^-24 */
 };

@@ -3,7 +3,7 @@
  * s interpolates |N'| in Chebyshev's nodes. r = N'.N' - s^2 is a polynomial again, so that the bound R of
  * its coefficients tells how near s is: for R <= n^2 / 4, n the least |N'|, it is
  * | |N'| - s | <= 0.6 R / n, and the derivatives of both differ by at most
- * R / n (2.5 D + 0.75 S / n), D the degree of s and S the largest |N'u|. Where s would be off by too much
+ * R / n (2.5 D + 0.75 S / n), D the degree of s, or half that of r, and S the largest |N'u|. Where s would be off by too much
  * the patches are halved beforehand.
  */
 #include "level_root.h"
@@ -23,7 +23,10 @@ void level_root_tables(struct root_tables *x, int least, const int degree[2],
                        const double *binomial)
 {
 	const int highest = degree[0] > degree[1] ? degree[0] : degree[1];
-	const int n = highest > least ? highest : least;
+	/* a higher one costs more digits on its way from Chebyshev's polynomials to Bernstein's */
+	const int n = highest < least             ? least
+	              : highest < ROOT_DEGREE_MAX ? highest
+	                                          : ROOT_DEGREE_MAX;
 	x->degree = n;
 	for (int k = 0; k <= n; k++)
 		x->node[k] = 0.5 - 0.5 * cos(M_PI * (k + 0.5) / (n + 1));
@@ -62,7 +65,7 @@ static void lengths(const struct level_surface *s, const double *normals, double
 	const struct root_tables *x = s->root;
 	const int m = s->degree[0], n = s->degree[1];
 	for (int i = 0; i <= x->degree; i++) {
-		double row[ROOT_DEGREE_MAX + 1][3];
+		double row[NORMAL_DEGREE_MAX + 1][3];
 		for (int b = 0; b <= n; b++)
 			for (int d = 0; d < 3; d++) {
 				row[b][d] = 0;
@@ -230,7 +233,11 @@ bool level_root_form(struct tracer *t, const struct form *square, struct form *o
 {
 	const struct level_surface *s = t->level->surface;
 	const int n = s->root->degree;
-	struct form values = form_new(t, n, n), rest = form_new(t, 2 * n, 2 * n);
+	const int m[2] = { square->m > 2 * n ? square->m : 2 * n,
+		           square->n > 2 * n ? square->n : 2 * n };
+	/* the degree of the rest's derivatives, over that of s */
+	const double higher = 0.5 * (m[0] > m[1] ? m[0] : m[1]) / n;
+	struct form values = form_new(t, n, n), rest = form_new(t, m[0], m[1]);
 	const struct extremes x = extremes_of(s, t->patch);
 	const double slope = larger(x.slope[0], x.slope[1]);
 	*out = form_new(t, n, n);
@@ -241,11 +248,17 @@ bool level_root_form(struct tracer *t, const struct form *square, struct form *o
 	out->b.size = form_most(out->c, form_count(n, n));
 	form_scale(out->c, n, n, s->binomial, false);
 	form_add(t, &rest, *square, 1);
-	form_add_square(&rest, *out, -1);
+	if (m[0] == 2 * n && m[1] == 2 * n) {
+		form_add_square(&rest, *out, -1);
+	} else {
+		struct form own = form_new(t, 2 * n, 2 * n);
+		form_add_square(&own, *out, 1);
+		form_add(t, &rest, own, -1);
+	}
 	form_tighten(t, &rest);
 	const double off = rest.b.size + rest.b.error;
 	if (!(off <= 0.25 * x.least * x.least))
 		return false;
-	out->b.error = off / x.least * (1.25 + 0.4 * slope / (n * x.least));
+	out->b.error = off / x.least * (1.25 * higher + 0.4 * slope / (n * x.least));
 	return true;
 }

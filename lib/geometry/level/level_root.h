@@ -5,7 +5,7 @@
 #include "level_private.h"
 
 /* The least degree of the polynomial for the normal's length: for curvatures; for isophotes, which need less. */
-enum { ROOT_DEGREE = 16, ROOT_DEGREE_LOW = 12, ROOT_DEGREE_MAX = NORMAL_DEGREE_MAX };
+enum { ROOT_DEGREE = 16, ROOT_DEGREE_LOW = 12, ROOT_DEGREE_MAX = ROOT_DEGREE };
 
 /* Chebyshev's nodes, and what takes values in them to Chebyshev and to Bernstein coefficients. [node] */
 struct root_tables {

@@ -4,6 +4,24 @@
 #include <math.h>
 #include <string.h>
 
+/* A product of more numbers than this is asked about row by row. */
+static const double long_product = 1e6;
+
+void second_add_product(struct tracer *t, struct form *out, struct form a, struct form b,
+                        double weight)
+{
+	const size_t rows = (size_t)a.m + 1;
+	if ((double)form_count(a.m, a.n) * (double)form_count(b.m, b.n) < long_product) {
+		if (!tracer_ends(t))
+			form_add_product(out, a, b, weight);
+		return;
+	}
+	for (size_t i = 0; i < rows && !tracer_ends(t); i++)
+		form_product(a.c + (a.n + 1) * i, 0, a.n, b.c, b.m, b.n, weight,
+		             out->c + (out->n + 1) * i);
+	out->b = bound_sum(out->b, weight, bound_product(a.b, b.b, out->m, out->n));
+}
+
 /* The derivative of a form, both scaled, by the parameter that runs over [0, 1] on the surface. */
 static struct form derivative(struct tracer *t, struct form x, int d)
 {
@@ -67,8 +85,8 @@ void second_parts_make(struct tracer *t, struct second_parts *p)
 struct form second_dot(struct tracer *t, const struct form a[3], const struct form b[3])
 {
 	struct form out = form_new(t, a[0].m + b[0].m, a[0].n + b[0].n);
-	for (int k = 0; k < 3 && !tracer_ends(t); k++)
-		form_add_product(&out, a[k], b[k], 1);
+	for (int k = 0; k < 3; k++)
+		second_add_product(t, &out, a[k], b[k], 1);
 	form_tighten(t, &out);
 	return out;
 }
@@ -76,8 +94,7 @@ struct form second_dot(struct tracer *t, const struct form a[3], const struct fo
 struct form second_product(struct tracer *t, struct form a, struct form b)
 {
 	struct form out = form_new(t, a.m + b.m, a.n + b.n);
-	if (!tracer_ends(t))
-		form_add_product(&out, a, b, 1);
+	second_add_product(t, &out, a, b, 1);
 	form_tighten(t, &out);
 	return out;
 }

@@ -15,6 +15,10 @@ struct second_parts {
 };
 void second_parts_make(struct tracer *t, struct second_parts *p);
 
+/* out += weight a b, of the same degrees; rubbish where the tracer ends. */
+void second_add_product(struct tracer *t, struct form *out, struct form a, struct form b,
+                        double weight);
+
 /* Fresh forms; rubbish where the tracer ends. */
 struct form second_dot(struct tracer *t, const struct form a[3], const struct form b[3]);
 struct form second_product(struct tracer *t, struct form a, struct form b);

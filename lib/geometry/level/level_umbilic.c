@@ -74,10 +74,8 @@ static struct form minor(struct tracer *t, struct form a, struct form b, struct 
                          struct form d)
 {
 	struct form out = form_new(t, a.m + b.m, a.n + b.n);
-	if (!tracer_ends(t))
-		form_add_product(&out, a, b, 1);
-	if (!tracer_ends(t))
-		form_add_product(&out, c, d, -1);
+	second_add_product(t, &out, a, b, 1);
+	second_add_product(t, &out, c, d, -1);
 	return out;
 }
 
