@@ -10,6 +10,7 @@
  *   mean       h - 2 c N.N s
  *   principal  c^2 N.N^2 + k w^2 - c h s, and 2 c N.N s - h >= 0 for kmax, <= 0 for kmin
  *   normal     l w^2 - c A.A s
+ * For c = 0 that is k, h, k with the sign of h, l.
  * Where N has lost a factor p at a pole (level_normal.c) l, m, n, k, h are made of the N that is left, and k and
  * h have another p^2 to lose: there a surface has curvatures only if they do have it.
  * Source: do Carmo, Differential Geometry of Curves and Surfaces (1976), section 3.3.
@@ -36,12 +37,20 @@ static int most(int a, int b)
 void level_curvature_degree(struct level *l)
 {
 	const struct level_surface *s = l->surface;
+	const bool zero = l->value == 0;
 	for (int d = 0; d < 2; d++) {
 		const int p = s->net.order[d] - 1, extra = s->net.rational ? p : 0;
 		const int m = s->degree[d], root = s->root ? s->root->degree : 0;
 		const int square = p - 1 + extra, h = 3 * p - 2 + 3 * extra + m;
 		const int second = p + extra + m; /* of l, m, n: at most */
-		l->side_degree[d] = most(2 * m + root, h);
+		l->side_degree[d] = zero ? h : most(2 * m + root, h);
+		/* no form is raised to a degree that only others have */
+		if (zero) {
+			l->degree[d] = s->quantity == QUANTITY_MEAN       ? h
+			               : s->quantity >= QUANTITY_NORMAL_U ? second
+			                                                  : 2 * (p - 1 + extra + m);
+			continue;
+		}
 		switch (s->quantity) {
 		case QUANTITY_GAUSSIAN:
 			l->degree[d] = 4 * m;
@@ -95,7 +104,7 @@ static bool gauss_form(struct tracer *t, const struct second_parts *p, struct fo
 	form_tighten(t, k);
 	if (!factors_out(t, k))
 		return false;
-	if (t->level->surface->net.rational)
+	if (t->level->surface->net.rational && t->level->value != 0)
 		*k = second_product(t, *k, second_product(t, p->x[3], p->x[3]));
 	return true;
 }
@@ -136,6 +145,27 @@ static bool normal_make(struct tracer *t, const struct second_parts *p, struct f
 	return true;
 }
 
+/* The value is 0: factors that all terms have are left out, and no length is needed. */
+static bool zero_make(struct tracer *t, const struct second_parts *p, struct form *f,
+                      struct form *side)
+{
+	const enum quantity quantity = t->level->surface->quantity;
+	const bool gauss = quantity == QUANTITY_GAUSSIAN || t->n_side > 0;
+	struct form k, h;
+	if (quantity == QUANTITY_NORMAL_U || quantity == QUANTITY_NORMAL_V) {
+		form_add(t, f, second_dot(t, p->d[quantity == QUANTITY_NORMAL_U ? DUU : DVV], p->n),
+		         1);
+		return true;
+	}
+	if ((gauss && !gauss_form(t, p, &k)) ||
+	    (quantity != QUANTITY_GAUSSIAN && !mean_form(t, p, &h)))
+		return false;
+	form_add(t, f, gauss ? k : h, 1);
+	if (t->n_side)
+		form_add(t, side, h, quantity == QUANTITY_KMAX ? -1 : 1);
+	return true;
+}
+
 static bool field_make(struct tracer *t, struct form *f, struct form *side)
 {
 	const struct level *l = t->level;
@@ -144,6 +174,8 @@ static bool field_make(struct tracer *t, struct form *f, struct form *side)
 	struct second_parts p;
 	struct form k, h, root;
 	second_parts_make(t, &p);
+	if (c == 0)
+		return zero_make(t, &p, f, side);
 	const struct form square = second_dot(t, p.n, p.n);
 	if (quantity == QUANTITY_GAUSSIAN) {
 		if (!gauss_form(t, &p, &k))

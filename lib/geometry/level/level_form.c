@@ -147,14 +147,18 @@ struct bound bound_sum(struct bound a, double weight, struct bound b)
 	return (struct bound){ size, a.error + fabs(weight) * b.error + 8 * UNIT_ROUNDOFF * size };
 }
 
-struct bound bound_product(struct bound a, struct bound b, int m, int n)
+struct bound bound_product_of(struct bound a, struct bound b, double terms, int m, int n)
 {
 	/* A coefficient is a mean of products, whose numbers are the binomials over each other: it
-	 * is not larger than the largest product. At most (m / 2 + 1) (n / 2 + 1) are summed, each
-	 * number was scaled, binomials are sums themselves. */
-	double steps = (m / 2 + 1.0) * (n / 2 + 1.0) + m + n + 10;
+	 * is not larger than the largest product. Each number was scaled, binomials are sums themselves. */
+	double steps = terms + m + n + 10;
 	struct bound r = { a.size * b.size, 0 };
 	r.error = a.error * b.size + a.size * b.error + a.error * b.error +
 	          steps * UNIT_ROUNDOFF * r.size;
 	return r;
+}
+
+struct bound bound_product(struct bound a, struct bound b, int m, int n)
+{
+	return bound_product_of(a, b, (m / 2 + 1.0) * (n / 2 + 1.0), m, n);
 }

@@ -61,6 +61,9 @@ struct bound bound_sum(struct bound a, double weight, struct bound b);
 /* Of a product of degrees m x n, as form_product makes it from scaled forms, and scaled back. */
 struct bound bound_product(struct bound a, struct bound b, int m, int n);
 
+/* .. where no coefficient is a sum of more than so many products. */
+struct bound bound_product_of(struct bound a, struct bound b, double terms, int m, int n);
+
 /* Largest coefficient. */
 double form_most(const double *c, size_t count);
 

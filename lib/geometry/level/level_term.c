@@ -12,10 +12,17 @@ struct form form_new(struct tracer *t, int m, int n)
 	return f;
 }
 
+/* A coefficient of the product is a sum of at most so many. */
+static double terms_of(struct form a, struct form b)
+{
+	return ((a.m < b.m ? a.m : b.m) + 1.0) * ((a.n < b.n ? a.n : b.n) + 1.0);
+}
+
 void form_add_product(struct form *out, struct form a, struct form b, double weight)
 {
 	form_product(a.c, a.m, a.n, b.c, b.m, b.n, weight, out->c);
-	out->b = bound_sum(out->b, weight, bound_product(a.b, b.b, out->m, out->n));
+	out->b = bound_sum(out->b, weight,
+	                   bound_product_of(a.b, b.b, terms_of(a, b), out->m, out->n));
 }
 
 void form_add_square(struct form *out, struct form a, double weight)
