@@ -67,10 +67,17 @@ static void copy_domain(struct range *r)
 			r->domain[d][k] = r->bound[d][k];
 }
 
+/* A whole number that a flag or a dimension may be; -1 for all else. */
+static int next_small(struct numbers *p)
+{
+	const double x = next(p);
+	return x >= 0 && x <= 99 && x == floor(x) ? (int)x : -1;
+}
+
 /* A flag that says whether there are bounds, those, and at the end one of direction. */
 static void next_flagged(struct numbers *p, int n, struct range *r)
 {
-	int flag = (int)next(p);
+	int flag = next_small(p);
 	r->bounded = flag % 10 == 1;
 	next_pairs(p, r->bound, r->bounded ? n : 0);
 	copy_domain(r);
@@ -84,7 +91,7 @@ static void next_bounds(struct numbers *p, int n, struct range *r)
 {
 	next_pairs(p, r->bound, n);
 	copy_domain(r);
-	int flag = (int)next(p);
+	int flag = next_small(p);
 	if (flag >= 10)
 		next_pairs(p, r->domain, n);
 	r->bounded = true;
@@ -244,7 +251,7 @@ enum status g2_make_elementary(int class, const double *x, int n, struct entity 
                                const char **reason)
 {
 	struct numbers p = { x, n, 0 };
-	int dimension = (int)next(&p);
+	int dimension = next_small(&p);
 	*reason = "its numbers describe nothing, or it has no bounds; give it bounds or convert it "
 	          "to splines";
 	if (dimension != 3 && !(dimension == 2 && class < 200))

@@ -101,6 +101,10 @@ static void faults_are_named(void **state)
 		{ "200 1 0 2000000000\n", "found '2000000000', expected number of auxiliary" },
 		{ "292 1 0 0\n3\n", "a Disc is not read" },
 		{ "250 1 0 0\n3\n", "a Plane: its numbers describe nothing" },
+		{ "250 1 0 0\n1.8e32\n0 0 1\n0 0 1\n1 0 0\n1\n0 2\n0 4\n0\n",
+		  "a Plane: its numbers describe nothing" },
+		{ "250 1 0 0\n3\n0 0 1\n0 0 1\n1 0 0\n2.2e23\n0 2\n0 4\n0\n",
+		  "a Plane: its numbers describe nothing" },
 		{ "250 1 0 0\n3\nabc\n", "found 'abc'" },
 		{ "100 1 0 0\n3 0\n2 2\n0 0 1 -1\n0 0 0\n1 1 1\n", "the curve" },
 	};
