@@ -44,7 +44,7 @@ static void every_entry_has_its_text(void **state)
 		}
 	assert_int_equal(help_count(h), n);
 	assert_string_equal(help_at(h, 0)->code, "N0");
-	assert_string_equal(help_at(h, n - 1)->code, "V188");
+	assert_string_equal(help_at(h, n - 1)->code, "V189");
 	assert_null(help_find(h, "V9999"));
 	assert_string_equal(help_find(h, "v79")->code, "V79");
 	assert_null(help_complaint(h));

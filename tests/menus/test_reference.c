@@ -14,10 +14,11 @@
 #include "menu.h"
 #include "path.h"
 
-/* Leaves that came after the table: the window's split view, so that scripts have it, too. */
+/* Leaves that came after the table, so that scripts have what the window does, too. */
 static const struct {
 	const char *code, *path;
-} later[] = { { "V188", "WORLD > SPLIT VIEW" } };
+} later[] = { { "V188", "WORLD > SPLIT VIEW" },
+	      { "V189", "MAIN > GEOMETRY INTERROGATION > SURFACE > IMAGE ON/OFF" } };
 
 static void expect_leaf(const struct menu_set *set, const char *code, const char *path)
 {
