@@ -78,6 +78,15 @@ static int first_to_ask(const struct ask *a)
 	return 0;
 }
 
+/* What went wrong elsewhere is over for who asks for something else; F4 still has it. */
+static void pass_message(struct desk *d, const struct routine *t)
+{
+	struct message_line *last = d->n_messages ? &d->messages[d->n_messages - 1] : NULL;
+
+	if (last && !last->done && last->of != t)
+		last->past = true;
+}
+
 void desk_ask(struct desk *d, const struct routine *t, const struct Menu_Entry *e)
 {
 	struct argument_row *rows = NULL;
@@ -113,6 +122,7 @@ void desk_ask(struct desk *d, const struct routine *t, const struct Menu_Entry *
 		desk_say(d, REPORT_ERROR, "memory ran out");
 		return;
 	}
+	pass_message(d, t);
 	fill_defaults(a);
 	if (desk_leaf_tool(t->code) != TOOL_NONE)
 		desk_tool_begin(d, desk_leaf_tool(t->code));

@@ -35,8 +35,10 @@ struct scraps {
 
 struct message_line {
 	enum report_level level;
-	bool done;  /* a check before it */
-	char *text; /* owned */
+	bool done;                /* a check before it */
+	bool past;                /* another form was opened since */
+	const struct routine *of; /* what failed, NULL: none */
+	char *text;               /* owned */
 	char hint[48];
 };
 

@@ -233,6 +233,7 @@ void desk_errand_over(struct desk *d)
 	} else {
 		const char *error = errand_error(e);
 		desk_say(d, REPORT_ERROR, "%s", *error ? error : status_text(st));
+		d->messages[d->n_messages - 1].of = t;
 	}
 	errand_destroy(e);
 	if (d->fitted)

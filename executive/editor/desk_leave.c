@@ -80,6 +80,35 @@ static void quit_answer(struct desk *d, char key)
 		try_to_leave(d, key == 'S' ? "suspend" : key == 'K' ? "kill" : "leave");
 }
 
+/* What becomes of jobs that are left: some go on, some wait for the user. */
+static char *left_text(const struct desk *d, int jobs)
+{
+	int waiting = 0;
+
+	for (int i = 0; i < d->shelf.n; i++)
+		waiting += desk_job_can(&d->shelf.jobs[i], MESSAGE_ACTIVATE);
+	if (!waiting)
+		return text_print("%d %s not ended. Without this window %s on.", jobs,
+		                  jobs == 1 ? "job has" : "jobs have",
+		                  jobs == 1 ? "it goes" : "they go");
+	if (waiting == jobs)
+		return text_print("%d %s not ended and %s until activated.", jobs,
+		                  jobs == 1 ? "job has" : "jobs have",
+		                  jobs == 1 ? "waits" : "wait");
+	return text_print("%d jobs have not ended. Without this window %d %s on; %d %s until "
+	                  "activated.",
+	                  jobs, jobs - waiting, jobs - waiting == 1 ? "goes" : "go", waiting,
+	                  waiting == 1 ? "waits" : "wait");
+}
+
+static bool any_can(const struct desk *d, enum message_type type)
+{
+	for (int i = 0; i < d->shelf.n; i++)
+		if (desk_job_can(&d->shelf.jobs[i], type))
+			return true;
+	return false;
+}
+
 void desk_quit(struct desk *d)
 {
 	struct question q = { .answer = quit_answer };
@@ -110,14 +139,16 @@ void desk_quit(struct desk *d)
 		                             "have them.",
 		                             n);
 	if (jobs)
-		q.line[lines++] = text_print("%d %s not ended. Without this window %s on.", jobs,
-		                             jobs == 1 ? "job has" : "jobs have",
-		                             jobs == 1 ? "it goes" : "they go");
+		q.line[lines++] = left_text(d, jobs);
 	q.key[b] = 'L';
-	q.word[b++] = jobs ? "Leave them running" : "Leave";
-	if (jobs) {
+	q.word[b++] = !jobs                          ? "Leave"
+	              : any_can(d, MESSAGE_ACTIVATE) ? "Leave them so"
+	                                             : "Leave them running";
+	if (any_can(d, MESSAGE_SUSPEND)) {
 		q.key[b] = 'S';
 		q.word[b++] = "Suspend them";
+	}
+	if (jobs) {
 		q.key[b] = 'K';
 		q.word[b++] = "Kill them";
 	}

@@ -318,7 +318,7 @@ void desk_fill_foot(struct desk *d)
 		                  .rest = "",
 		                  .range = "",
 		                  .candidate = -1 };
-	if (d->n_messages) {
+	if (d->n_messages && !d->messages[d->n_messages - 1].past) {
 		const struct message_line *last = &d->messages[d->n_messages - 1];
 		m->level = last->level;
 		m->done = last->done;

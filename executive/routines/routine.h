@@ -121,7 +121,8 @@ void routine_rows_free(struct argument_row *rows);
 
 /* Why it cannot be run now ("no file", "no curve", "later version"), or NULL. */
 const char *routine_greyed(const struct routine *t, const struct world *w);
-/* What a setting is set to, for the right of its menu row ("400 x 200"); "" if nothing. */
+/* What a setting is set to, for the right of its menu row ("400 x 200"); "default" where nothing was
+ * set; "" where there is nothing to tell. */
 void routine_state(const struct routine *t, const struct world *w, char out[48]);
 
 /* Is that value right for that row? Errors: ST_PARAMETER: what it is, what is allowed. */

@@ -148,6 +148,15 @@ enum status rows_from_state(struct argument_row *rows, const struct routine *t,
 	return ST_OK;
 }
 
+/* Nothing was set, so what holds is what workers or the theme take. */
+static bool by_default(const struct routine *t, const struct argument_row *rows)
+{
+	for (const struct argument_row *row = rows; row->name; row++)
+		if (row->stores)
+			return true;
+	return t->run == show_color || t->run == world_background;
+}
+
 /* "400x200" reads better as "400 × 200". */
 static void add_value(struct text *t, const struct argument_row *row, const char *value)
 {
@@ -188,6 +197,8 @@ void routine_state(const struct routine *t, const struct world *w, char out[48])
 		else if (row->stores && row->def)
 			add_value(&now, row, row->def);
 	}
+	if (!now.n && by_default(t, rows))
+		text_add(&now, "default");
 	/* cut between characters */
 	size_t n = now.n < 47 ? now.n : 47;
 	while (n && n < now.n && ((unsigned char)now.s[n] & 0xc0) == 0x80)

@@ -314,6 +314,9 @@ static void quitting_asks_only_where_something_is_lost(void **state)
 	stand_some_jobs(s);
 	desk_close(s->desk);
 	assert_int_equal(desk_list_model(s->desk)->n_buttons, 4);
+	assert_string_equal(desk_list_model(s->desk)->lines[1],
+	                    "3 jobs have not ended. Without this window 2 go on; 1 waits until "
+	                    "activated.");
 	stand_click_with(s, HIT_BUTTON, 1, GROUP_LIST, 0);
 	assert_int_equal(s->asked, MESSAGE_SUSPEND);
 	assert_int_equal(s->ids[0], 1);
@@ -325,6 +328,50 @@ static void quitting_asks_only_where_something_is_lost(void **state)
 	desk_close(s->desk);
 	stand_type(s, "l");
 	assert_true(s->closed);
+}
+
+/* A suspended job does not go on by itself, and cannot be suspended again. */
+static void quitting_says_what_becomes_of_jobs(void **state)
+{
+	struct stand *s = *state;
+
+	stand_put_job(s, 1, JOB_RUNNING, NULL);
+	desk_close(s->desk);
+	assert_string_equal(desk_list_model(s->desk)->lines[0],
+	                    "1 job has not ended. Without this window it goes on.");
+	assert_int_equal(desk_list_model(s->desk)->n_buttons, 4);
+	stand_type(s, "n");
+	stand_put_job(s, 1, JOB_SUSPENDED, NULL);
+	desk_close(s->desk);
+	assert_string_equal(desk_list_model(s->desk)->lines[0],
+	                    "1 job has not ended and waits until activated.");
+	assert_int_equal(desk_list_model(s->desk)->n_buttons, 3);
+	stand_type(s, "s");
+	assert_false(s->closed);
+	stand_type(s, "l");
+	assert_true(s->closed);
+}
+
+/* What went wrong stands until something else is asked for. */
+static void an_old_error_goes_with_another_form(void **state)
+{
+	struct stand *s = *state;
+
+	stand_add_plate(s, "plate");
+	stand_leaf(s, "V43");
+	assert_non_null(strstr(stand_message(s), "no curve"));
+	stand_leaf(s, "V57");
+	assert_string_equal(stand_message(s), "");
+	stand_key(s, KEY_ESCAPE);
+	stand_leaf(s, "V175");
+	stand_type(s, "missing.igs");
+	stand_key(s, KEY_ENTER);
+	assert_non_null(strstr(stand_message(s), "missing.igs"));
+	stand_leaf(s, "V175");
+	assert_non_null(strstr(stand_message(s), "missing.igs"));
+	stand_key(s, KEY_ESCAPE);
+	stand_leaf(s, "V57");
+	assert_string_equal(stand_message(s), "");
 }
 
 /* Unsaved work that the session cannot keep is not lost unasked. */
@@ -423,6 +470,8 @@ int main(void)
 		TEST(links_of_help_are_followed_by_keys_and_mouse),
 		TEST(the_sheet_of_keys_scrolls_where_it_is_cut),
 		TEST(quitting_asks_only_where_something_is_lost),
+		TEST(quitting_says_what_becomes_of_jobs),
+		TEST(an_old_error_goes_with_another_form),
 		TEST(a_session_that_cannot_be_kept_is_asked_about),
 		TEST(a_long_errand_holds_the_world_and_can_be_stopped),
 		TEST(keys_of_the_window_paint_what_they_change),

@@ -63,6 +63,7 @@ static void test_stored(void **state)
 	assert_null(world_default(w, "shading", "azimuth"));
 	assert_string_equal(world_default(w, "shading", "intensity"), "2");
 
+	assert_state(a, "V174", "default");
 	acting_does(a, "V174 grid=400x200");
 	assert_state(a, "V174", "400 × 200");
 	acting_fails(a, "V174 grid=0x200", ST_PARAMETER, "grid is");
@@ -71,6 +72,7 @@ static void test_stored(void **state)
 	acting_does(a, "V77 reflectivity=0.5 stripes=4");
 	assert_string_equal(world_default(w, "raytrace", "mirror"), "0.5");
 	assert_state(a, "V79", "");
+	assert_state(a, "V166", "");
 }
 
 static void test_display(void **state)
@@ -98,7 +100,9 @@ static void test_display(void **state)
 	assert_true(s->display.lines_u == 3 && s->display.lines_v == 4 &&
 	            s->display.segments == 50);
 	assert_state(a, "V57", "3, 4, 50");
+	assert_state(a, "V58", "default");
 	acting_does(a, "V58 color=#FF8000");
+	assert_state(a, "V58", "#FF8000");
 	assert_true(s->display.has_color && s->display.color.r == 1 && s->display.color.b == 0);
 	assert_default(a, "V72", "color", "#FF8000");
 	acting_does(a, "V99 on=no");
