@@ -52,6 +52,8 @@ char *work_name(const struct act *a, const int *ids, int n, const char *suffix);
 /* What a result says it was made of, for these things. */
 enum status work_hash(const struct world *w, const int *ids, int n, char out[33]);
 
+/* What was asked for last is seen: an image in the view gives way to things, and the other way round. */
+void work_seen(struct world *w, enum overlay_kind kind);
 /* Show what a job made, or is making. */
 enum status work_show(struct act *a, const struct Stats *s, int thing, const struct overlay *like);
 /* Is that file a result of the worker for these things as they are now? *grid: its parameter, fresh or NULL. */

@@ -45,7 +45,6 @@ static enum status run_scene(struct act *a, const struct arguments *given, const
 
 enum status job_image(struct act *a, const struct arguments *given)
 {
-	world_sight(a->world)->no_image = false;
 	return run_scene(a, given, NULL, &(struct overlay){ .kind = OVERLAY_IMAGE });
 }
 
@@ -191,6 +190,7 @@ enum status surface_quantity(struct act *a, const struct arguments *given)
 	for (int k = 0; k < n && st == ST_OK; k++)
 		st = show_quantity(a, ids[k], &o);
 	if (st == ST_OK) {
+		work_seen(a->world, OVERLAY_MAP);
 		world_sight(a->world)->all_curvatures = false;
 		if (n == 1)
 			act_say(a, "%s of %s", quantity_table[o.quantity].title,
@@ -228,6 +228,8 @@ static enum status show_result(struct act *a, const struct arguments *given, con
 		report_warning(&a->report,
 		               "'%s' was not made of what is open now; %s computes it anew",
 		               path_file_name(path), code);
+	if (st == ST_OK)
+		work_seen(a->world, OVERLAY_LINES);
 	if (st == ST_OK)
 		st = world_show(
 		        a->world,

@@ -87,6 +87,7 @@ static enum status show_file(struct act *a, const struct overlay *like, char *pa
 	struct overlay o = *like;
 
 	o.file = path;
+	work_seen(a->world, like->kind);
 	enum status st = world_show(a->world, &o) == ST_OK ? ST_OK : act_memory(a);
 	free(path);
 	return st;
@@ -97,8 +98,6 @@ enum status surface_image(struct act *a, const struct arguments *given)
 	char *path;
 	enum status st = find_image(a, argument_text(given, "file"), "R", &path);
 
-	if (st == ST_OK)
-		world_sight(a->world)->no_image = false;
 	return st == ST_OK ? show_file(a, &(struct overlay){ .kind = OVERLAY_IMAGE }, path) : st;
 }
 

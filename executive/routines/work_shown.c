@@ -50,12 +50,24 @@ static void say_result(const struct act *a, const struct Stats *s, const struct 
 	text_finish(&t);
 }
 
+void work_seen(struct world *w, enum overlay_kind kind)
+{
+	const bool image = kind == OVERLAY_IMAGE;
+	bool hidden = false;
+
+	for (int k = 0; k < world_overlays(w) && !image; k++)
+		hidden |= world_overlay(w, k)->kind == OVERLAY_IMAGE;
+	if (image || hidden)
+		world_sight(w)->no_image = !image;
+}
+
 enum status work_show(struct act *a, const struct Stats *s, int thing, const struct overlay *like)
 {
 	struct overlay o = *like;
 	enum status st = ST_OK;
 
 	o.thing = thing;
+	work_seen(a->world, like->kind);
 	if (!job_state_table[s->state].over) {
 		char *part = text_print("%s/parts/%lld.part", a->project->hidden, (long long)s->id);
 		o.job = s->id;

@@ -227,6 +227,18 @@ static void test_results(void **state)
 	acting_does(a, "V89 file=diagonal.base");
 	assert_int_equal(world_overlays(a->place.world), 1);
 	assert_int_equal(world_overlay(a->place.world, 0)->kind, OVERLAY_LINES);
+
+	/* an image in the view gives way to what is asked for after it */
+	const struct sight *s = world_sight(a->place.world);
+	assert_false(s->no_image);
+	const struct overlay image = { .kind = OVERLAY_IMAGE, .file = (char *)"a.shade.exr" };
+	assert_int_equal(world_show(a->place.world, &image), ST_OK);
+	acting_fails(a, "V89 file=none.isophote", ST_INPUT, "none.isophote");
+	assert_false(s->no_image);
+	acting_does(a, "V89 file=diagonal.base");
+	assert_true(s->no_image);
+	acting_does(a, "V189 on=yes");
+	assert_false(s->no_image);
 }
 
 /* What cannot be read is told by its name: a folder, a link to nothing, no permission. */
