@@ -202,15 +202,15 @@ static void tiny_prove(const struct follower *w, const struct station *a, const 
  * Between its ends the curve is a graph over one direction, in the other between `lo` and `hi`; the cubics are
  * in their control points' hull, which is near the first end.
  */
-static struct proof box_proof(const struct follower *w, const struct station *a,
+static struct proof box_proof(const struct follower *w, int along, const struct station *a,
                               const struct station *b, double size, double length, double lo,
                               double hi)
 {
 	const struct prover *p = &w->prover;
-	const int other = 1 - w->along;
+	const int other = 1 - along;
 	const double reach = 1.15 * length / 3; /* lengths are corrected by no more */
 	double space = size + reach, extent[2];
-	extent[w->along] = fabs(a->uv[w->along] - b->uv[w->along]);
+	extent[along] = fabs(a->uv[along] - b->uv[along]);
 	extent[other] = larger(hi - smaller(a->uv[other], b->uv[other]),
 	                       larger(a->uv[other], b->uv[other]) - lo);
 	for (int d = 0; d < 2; d++) {
@@ -230,27 +230,57 @@ static struct proof rough_proof(const struct follower *w, const struct station *
                                 const struct station *b, double size, double length)
 {
 	const int other = 1 - w->along;
-	return box_proof(w, a, b, size, length, w->strip.box->lo[other], w->strip.box->hi[other]);
+	return box_proof(w, w->along, a, b, size, length, w->strip.box->lo[other],
+	                 w->strip.box->hi[other]);
 }
 
-/* From where f has a sure sign beside the piece. If that is much farther away than the piece is long, and it is no
- * cap of a curve that turns round, it is rounding that keeps it there, and no shorter piece does better. */
-static struct proof strip_proof(const struct follower *w, const struct station *a,
-                                const struct station *b, double size, double length, bool cap)
+/* From where f has a sure sign on lines along one direction, on both sides of the piece: between them is the curve. If
+ * that is much farther away than the piece is long, and it is no cap of a curve that turns round, it is rounding that
+ * keeps it there, and no shorter piece does better. False where one side has no such line, and f need not be
+ * monotone across. */
+static bool strip_along(const struct follower *w, int along, const struct station *a,
+                        const struct station *b, double size, double length, bool cap,
+                        struct proof *out)
 {
-	const int other = 1 - w->along;
-	double side[2];
-	level_strip_bound(&w->strip, a->uv, b->uv, side);
-	struct proof p = box_proof(w, a, b, size, length, side[0], side[1]);
+	const int other = 1 - along;
+	const struct cell_range whole = { { 0, 0 }, { 1, 1 } };
+	struct strip s = w->strip;
+	double side[2], extent[2];
+	if (along != w->along) {
+		/* such lines may be in the next cell; where a side condition holds, only in this one */
+		if (w->t->n_side == 0) {
+			s.box = &whole;
+			s.c = w->t->field;
+			s.error = w->t->field_error;
+		}
+		s.along = along;
+		s.rising = w->turn * (along == 1 ? a->duv[1] : -a->duv[0]) > 0;
+	}
+	if (!level_strip_bound(&s, a->uv, b->uv, side) && along != w->along)
+		return false;
+	*out = box_proof(w, along, a, b, size, length, side[0], side[1]);
 	const double *first = w->prover.shape->first;
-	double extent[2];
 	for (int d = 0; d < 2; d++)
 		extent[d] = fabs(a->uv[d] - b->uv[d]);
 	if (!cap && first[other] * (side[1] - side[0] - extent[other]) >
 	                    BAND_LENGTHS * (first[0] * extent[0] + first[1] * extent[1])) {
-		p.rounding[0] = p.space;
-		p.rounding[1] = p.uv;
+		out->rounding[0] = out->space;
+		out->rounding[1] = out->uv;
 	}
+	return true;
+}
+
+/* Lines along the graph's variable, or across where the curve runs that way. */
+static struct proof strip_proof(const struct follower *w, const struct station *a,
+                                const struct station *b, double size, double length, bool cap)
+{
+	struct proof p, across;
+	strip_along(w, w->along, a, b, size, length, cap, &p);
+	const struct level *l = w->t->level;
+	if ((p.space > l->tolerance || p.uv > l->tolerance_uv) &&
+	    strip_along(w, 1 - w->along, a, b, size, length, cap, &across) &&
+	    across.space < p.space)
+		proof_improve(&p, &across);
 	return p;
 }
 

@@ -413,8 +413,9 @@ struct strip {
 	bool rising;
 };
 
-/* level_strip.c: in the other direction the curve between two of its points is between these. */
-void level_strip_bound(const struct strip *s, const double a[2], const double b[2], double out[2]);
+/* level_strip.c: in the other direction the curve between two of its points is between these; false where one is only
+ * the cell's border. */
+bool level_strip_bound(const struct strip *s, const double a[2], const double b[2], double out[2]);
 
 /* Ends of a strand on the border of its patch, or loose inside. */
 enum strand_end_kind { STRAND_BORDER, STRAND_LOOSE, STRAND_CLOSED };

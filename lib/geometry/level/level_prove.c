@@ -231,15 +231,14 @@ static double slope_change(const struct prover *p, const double cubic[2][4],
 }
 
 /* c in powers of t - 1/2; how far it goes from its middle, from the place of which the slope is known, and
- * out of the box, in parts of that. */
+ * out of the box (below 0: it stays so far inside), in parts of that. */
 struct course {
-	double cubic[2][4], span[2], away[2], outside;
+	double cubic[2][4], span[2], away[2], outside[2];
 };
 
 static void course_set(const struct prover *p, const struct piece *x,
                        const struct proof_middle *mid, struct course *c)
 {
-	c->outside = 0;
 	for (int d = 0; d < 2; d++) {
 		const double a = x->uv[0][d], b = x->uv[1][d], da = x->duv[0][d], db = x->duv[1][d];
 		double *k = c->cubic[d];
@@ -251,7 +250,7 @@ static void course_set(const struct prover *p, const struct piece *x,
 		c->away[d] = c->span[d] + fabs(k[0] - mid->uv[d]);
 		const double lo = p->box.lo[d], hi = p->box.hi[d];
 		const double over = larger(lo - (k[0] - c->span[d]), k[0] + c->span[d] - hi);
-		c->outside = larger(c->outside, over / (hi - lo));
+		c->outside[d] = over / (hi - lo);
 	}
 }
 
@@ -319,12 +318,13 @@ static struct change change_bounds(const struct prover *p, const struct course *
 	const struct level *l = p->t->level;
 	const double w[2] = { fabs(mid->across[0]), fabs(mid->across[1]) };
 	const double *second = p->shape->second;
-	double away[2], outside = c->outside;
+	double away[2], more = 1;
 	for (int d = 0; d < 2; d++) {
-		away[d] = c->away[d] + ASIDE * f * w[d];
-		outside += ASIDE * f * w[d] / (p->box.hi[d] - p->box.lo[d]);
+		const double aside = ASIDE * f * w[d];
+		away[d] = c->away[d] + aside;
+		const double out = c->outside[d] + aside / (p->box.hi[d] - p->box.lo[d]);
+		more *= power(1 + 2 * larger(0, out), l->degree[d]);
 	}
-	const double more = power(1 + 2 * outside, l->degree[0] + l->degree[1]);
 	return (struct change){
 		2 * p->error * (w[0] * l->degree[0] + w[1] * l->degree[1]) +
 		        slope_change(p, c->cubic, mid, f, more),

@@ -75,13 +75,14 @@ static bool sign_sure(const struct looker *l, double y, bool above)
 	return true;
 }
 
-void level_strip_bound(const struct strip *s, const double a[2], const double b[2], double out[2])
+bool level_strip_bound(const struct strip *s, const double a[2], const double b[2], double out[2])
 {
 	const int along = s->along, other = 1 - along;
 	struct looker l;
 	const double end[2] = { smaller(a[other], b[other]), larger(a[other], b[other]) };
 	const double lo = s->box->lo[other], hi = s->box->hi[other];
 	const double first = larger(0.5 * (end[1] - end[0]), NEAR_SHARE * (hi - lo));
+	bool found[2] = { false, false };
 	looker_init(&l, s, smaller(a[along], b[along]), larger(a[along], b[along]));
 	for (int above = 0; above < 2; above++) {
 		const double from_end = above ? end[1] : end[0], sign = above ? 1 : -1;
@@ -94,6 +95,7 @@ void level_strip_bound(const struct strip *s, const double a[2], const double b[
 			if (!sign_sure(&l, y, above))
 				continue;
 			out[above] = y;
+			found[above] = true;
 			for (int times = 0; near > 0 && times < HALVINGS; times++) {
 				const double middle = 0.5 * (near + away);
 				if (sign_sure(&l, from_end + sign * middle, above))
@@ -104,4 +106,5 @@ void level_strip_bound(const struct strip *s, const double a[2], const double b[
 			break;
 		}
 	}
+	return found[0] && found[1];
 }
