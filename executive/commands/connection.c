@@ -13,6 +13,8 @@ enum status connection_open(struct connection *c, const struct invocation *i, bo
 {
 	*c = (struct connection){ 0 };
 	enum status st = project_find(&c->project, NULL, &i->report);
+	if (st == ST_OK)
+		st = project_check(&c->project, &i->report);
 	if (st == ST_OK && start)
 		st = project_make(&c->project, &i->report);
 	if (st == ST_OK)

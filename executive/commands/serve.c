@@ -29,6 +29,8 @@ static int serve_run(const struct invocation *i)
 	enum status st = project_find(&p, NULL, &i->report);
 
 	if (st == ST_OK)
+		st = project_check(&p, &i->report);
+	if (st == ST_OK)
 		st = project_make(&p, &i->report);
 	if (st == ST_OK && invocation_flag(i, "--at-login"))
 		st = at_login_write(&p, &i->report);

@@ -72,12 +72,24 @@ bool submission_takes_value(const struct invocation *i, const char *option)
 	return !flag;
 }
 
-static void take_parameters(struct submission *s)
+/* Of the words themselves too: an input is read for long before it is named to the service. */
+static enum status take_parameters(struct submission *s)
 {
-	s->parameters = json_object();
-	for (int k = 0; k < s->i->n_extra; k++)
-		json_set_text(s->parameters, s->i->extra[2 * k], s->i->extra[2 * k + 1]);
-	s->order.parameters = s->parameters;
+	const struct invocation *i = s->i;
+	enum status st = ST_OK;
+
+	s->order.parameters = s->parameters = json_object();
+	for (int k = 1; k < i->n_words && st == ST_OK; k++)
+		st = work_text_check("the input", i->words[k], &i->report);
+	for (int k = 0; k < i->n_extra && st == ST_OK; k++) {
+		const char *name = i->extra[2 * k], *value = i->extra[2 * k + 1];
+		st = work_text_check("the parameter", name, &i->report);
+		if (st == ST_OK)
+			st = work_text_check("the value", value, &i->report);
+		if (st == ST_OK)
+			json_set_text(s->parameters, name, value);
+	}
+	return st;
 }
 
 /* "12,13:any" */
@@ -182,8 +194,9 @@ enum status submission_send(const struct invocation *i, struct connection *c, st
 		                    "name a worker and at least one input; see batten %s --help",
 		                    i->command->name);
 	s.order.worker = i->words[0];
-	take_parameters(&s);
-	enum status st = project_find(&p, NULL, &i->report);
+	enum status st = take_parameters(&s);
+	if (st == ST_OK)
+		st = project_find(&p, NULL, &i->report);
 	if (st == ST_OK)
 		st = take_options(&s);
 	if (st == ST_OK)

@@ -74,6 +74,16 @@ void project_finish(struct project *p)
 	memset(p, 0, sizeof *p);
 }
 
+enum status project_check(const struct project *p, const struct report *r)
+{
+	if (text_is_utf8(p->folder))
+		return ST_OK;
+	return report_error(r, ST_INPUT,
+	                    "the name of the folder '%s' is not UTF-8, and no record of a job can "
+	                    "hold it; rename it",
+	                    p->folder);
+}
+
 static enum status socket_folder_make(const struct project *p, const struct report *r)
 {
 	char *folder = path_folder(p->socket);

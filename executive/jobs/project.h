@@ -15,6 +15,9 @@ struct project {
 enum status project_find(struct project *p, const char *from, const struct report *r);
 void project_finish(struct project *p);
 
+/* Can jobs be kept there? Their records are JSON, and name the folder. ST_INPUT where its name is no UTF-8. */
+enum status project_check(const struct project *p, const struct report *r);
+
 /* Make .batten/ with inputs/ parts/ jobs/ logs/, and the socket's folder (mode 700, owned by this
  * user; anything else there is an error). */
 enum status project_make(const struct project *p, const struct report *r);

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "text.h"
+
 /* Deeper, longer and larger values are none of ours, and some readers of JSON refuse them. */
 enum { DEPTH_MAX = 32, DIGITS_MAX = 18, FRACTION_MAX = 400, EXPONENT_MAX = 3 };
 /* of the record, of its lists, of what stands in those */
@@ -34,23 +36,6 @@ static bool next_is(struct scan *s, char c)
 static bool span_is(struct span a, const char *text)
 {
 	return a.n == strlen(text) && !memcmp(a.p, text, a.n);
-}
-
-/* Bytes of the UTF-8 character of several bytes at p; 0: it is none. */
-static size_t character(const unsigned char *p, size_t left)
-{
-	const unsigned char c = *p;
-	const size_t n = c < 0xc2 ? 0 : c < 0xe0 ? 2 : c < 0xf0 ? 3 : c < 0xf5 ? 4 : 0;
-	if (!n || n > left)
-		return 0;
-	for (size_t i = 1; i < n; i++)
-		if ((p[i] & 0xc0) != 0x80)
-			return 0;
-	/* too long a form, a surrogate, beyond the last one */
-	if ((c == 0xe0 && p[1] < 0xa0) || (c == 0xed && p[1] >= 0xa0) ||
-	    (c == 0xf0 && p[1] < 0x90) || (c == 0xf4 && p[1] >= 0x90))
-		return 0;
-	return n;
 }
 
 static bool escape(struct scan *s)
@@ -85,8 +70,7 @@ static bool string(struct scan *s, struct span *out)
 				return false;
 			continue;
 		}
-		if (c >= 0x80 &&
-		    !(n = character((const unsigned char *)s->p, (size_t)(s->end - s->p))))
+		if (c >= 0x80 && !(n = text_character(s->p, (size_t)(s->end - s->p))))
 			return false;
 		s->p += n;
 	}

@@ -59,6 +59,9 @@ static char **environment_with(char *ready)
 
 enum status service_start(const struct project *p, const struct report *r)
 {
+	enum status st = project_check(p, r);
+	if (st != ST_OK)
+		return st;
 	char *folder = path_of_program(), *program = folder ? path_join(folder, "batten") : NULL;
 	char *log = path_join(p->hidden, "logs/service.log"), ready[] = "BATTEN_READY_FD=3";
 	char *argv[] = { "batten", "serve", NULL }, **environment = environment_with(ready);
@@ -92,7 +95,6 @@ enum status service_start(const struct project *p, const struct report *r)
 	posix_spawn_file_actions_destroy(&actions);
 	posix_spawnattr_destroy(&attributes);
 	free(environment);
-	enum status st = ST_OK;
 	if (error)
 		st = report_error(r, ST_RESOURCE, "cannot start the service '%s': %s",
 		                  program ? program : "batten", strerror(error));

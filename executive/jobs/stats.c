@@ -166,18 +166,29 @@ struct writer {
 	bool brief; /* what is not known is left out */
 };
 
+/* A byte that is no UTF-8 (other programs' words in a reason) becomes the character for that: the record is
+ * JSON in any case. */
 static void write_string(struct text *t, const char *s)
 {
+	static const char unreadable[] = "\xef\xbf\xbd";
+	const char *end = s + strlen(s);
 	text_add_bytes(t, "\"", 1);
 	for (const char *p = s; *p;) {
 		size_t plain = 0;
-		while ((unsigned char)p[plain] >= 0x20 && p[plain] != '"' && p[plain] != '\\')
-			plain++;
+		size_t n = 1;
+		while (n && (unsigned char)p[plain] >= 0x20 && p[plain] != '"' &&
+		       p[plain] != '\\') {
+			n = text_character(p + plain, (size_t)(end - p) - plain);
+			plain += n;
+		}
 		text_add_bytes(t, p, plain);
 		p += plain;
 		if (*p == '"' || *p == '\\')
 			text_addf(t, "\\%c", *p++);
-		else if (*p)
+		else if ((unsigned char)*p >= 0x80) {
+			text_add(t, unreadable);
+			p++;
+		} else if (*p)
 			text_addf(t, "\\u%04x", (unsigned char)*p++);
 	}
 	text_add_bytes(t, "\"", 1);

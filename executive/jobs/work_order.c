@@ -55,10 +55,41 @@ static enum status check_place(struct work_order *o, const struct project *p,
 	return o->place ? ST_OK : report_error(r, ST_RESOURCE, "memory ran out");
 }
 
+enum status work_text_check(const char *what, const char *text, const struct report *r)
+{
+	if (!text || text_is_utf8(text))
+		return ST_OK;
+	return report_error(
+	        r, ST_PARAMETER,
+	        "%s '%s' is not UTF-8, and no record of a job can hold it; give another", what,
+	        text);
+}
+
+static enum status check_texts(const struct work_order *o, const struct report *r)
+{
+	const struct {
+		const char *what, *text;
+	} rows[] = {
+		{ "the worker", o->worker },     { "-o", o->output },
+		{ "the folder", o->folder },     { "--group", o->group },
+		{ "--partition", o->partition }, { "--account", o->account },
+		{ "--time", o->time },
+	};
+	enum status st = ST_OK;
+
+	for (size_t k = 0; k < sizeof rows / sizeof *rows && st == ST_OK; k++)
+		st = work_text_check(rows[k].what, rows[k].text, r);
+	return st;
+}
+
 enum status work_order_check(struct work_order *o, const struct project *p, const struct report *r)
 {
-	enum status st = check_worker(o, p, r);
+	enum status st = project_check(p, r);
 
+	if (st == ST_OK)
+		st = check_texts(o, r);
+	if (st == ST_OK)
+		st = check_worker(o, p, r);
 	return st == ST_OK ? check_place(o, p, r) : st;
 }
 
@@ -106,6 +137,9 @@ static enum status check_output(const struct work_order *o, const char *output,
 	if (!*said || !strcmp(said, ".") || !strcmp(said, ".."))
 		return report_error(r, ST_PARAMETER, "-o '%s' names no file; give a basic name",
 		                    o->output);
+	enum status st = work_text_check("the result", output, r);
+	if (st != ST_OK)
+		return st;
 	const size_t n = strlen(path_file_name(output)) + strlen(own_extension(o));
 	if (n > NAME_MAX)
 		return report_error(r, ST_PARAMETER,
@@ -215,6 +249,8 @@ enum status work_order_send(const struct work_order *o, struct client *c, client
 		own = base ? text_print("%s-%s", base, o->worker) : NULL;
 		free(base);
 	}
+	for (size_t k = 0; k < o->n_inputs && st == ST_OK; k++)
+		st = work_text_check("the input", o->inputs[k].path_name, r);
 	for (size_t k = 0; k < o->n_inputs && st == ST_OK; k += each) {
 		const bool numbered = each < o->n_inputs && (o->output || !o->inputs[k].alone);
 		char *output = output_name(o, &o->inputs[k], numbered);

@@ -42,6 +42,9 @@ struct work_order {
  */
 enum status work_order_check(struct work_order *o, const struct project *p, const struct report *r);
 
+/* A text for a job's record, which is JSON. ST_PARAMETER where it is no UTF-8; NULL is none, and good. */
+enum status work_text_check(const char *what, const char *text, const struct report *r);
+
 /*
  * Submit what was checked: a scene as one job, otherwise a job an input, as a group. Each new job goes to
  * on_job. Errors: ST_PARAMETER (results of the same name), the service's.

@@ -121,3 +121,35 @@ char *text_print(const char *format, ...)
 	va_end(list);
 	return n < 0 ? NULL : s;
 }
+
+size_t text_character(const char *s, size_t left)
+{
+	const unsigned char *p = (const unsigned char *)s;
+	if (!left)
+		return 0;
+	const unsigned char c = *p;
+	const size_t n = c < 0x80   ? 1
+	                 : c < 0xc2 ? 0
+	                 : c < 0xe0 ? 2
+	                 : c < 0xf0 ? 3
+	                 : c < 0xf5 ? 4
+	                            : 0;
+	if (!n || n > left)
+		return 0;
+	for (size_t i = 1; i < n; i++)
+		if ((p[i] & 0xc0) != 0x80)
+			return 0;
+	/* too long a form, a surrogate, beyond the last one */
+	if ((c == 0xe0 && p[1] < 0xa0) || (c == 0xed && p[1] >= 0xa0) ||
+	    (c == 0xf0 && p[1] < 0x90) || (c == 0xf4 && p[1] >= 0x90))
+		return 0;
+	return n;
+}
+
+bool text_is_utf8(const char *s)
+{
+	size_t left = strlen(s), n = 1;
+	for (; left && n; s += n, left -= n)
+		n = text_character(s, left);
+	return n > 0;
+}

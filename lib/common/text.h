@@ -24,6 +24,10 @@ void text_addf(struct text *t, const char *format, ...) __attribute__((format(pr
 /* Hand the string over to the caller, who frees it; NULL where the text failed. */
 char *text_take(struct text *t);
 
+/* Bytes of the UTF-8 character at p, of which `left` bytes are there; 0: it is none. */
+size_t text_character(const char *p, size_t left);
+bool text_is_utf8(const char *s);
+
 /* printf into fresh memory; NULL where memory ran out. Caller frees. */
 char *text_print(const char *format, ...) __attribute__((format(printf, 1, 2)));
 

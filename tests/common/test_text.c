@@ -41,6 +41,40 @@ static void an_empty_text_is_a_string(void **state)
 	free(s);
 }
 
+static void what_is_utf8(void **state)
+{
+	static const struct {
+		const char *text;
+		bool good;
+	} rows[] = {
+		{ "", true },
+		{ "a\n\x7f", true },
+		{ "\xc3\xa9\xe2\x82\xac\xf0\x9f\x9a\xa2", true },
+		{ "\xed\x9f\xbf\xee\x80\x80\xf4\x8f\xbf\xbf", true },
+		{ "a\xff", false },
+		{ "\x80", false },
+		{ "\xc3", false },
+		{ "\xc3z", false },
+		{ "\xe2\x82", false },
+		{ "\xf0\x9f\x9a", false },
+		{ "\xc0\xaf", false }, /* too long forms */
+		{ "\xe0\x9f\xbf", false },
+		{ "\xf0\x8f\xbf\xbf", false },
+		{ "\xed\xa0\x80", false },     /* a surrogate */
+		{ "\xf4\x90\x80\x80", false }, /* beyond the last one */
+	};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+		json_t *judge = json_string(rows[i].text);
+		assert_int_equal(text_is_utf8(rows[i].text), rows[i].good);
+		assert_int_equal(judge != NULL, rows[i].good);
+		json_decref(judge);
+	}
+	assert_int_equal(text_character("\xc3\xa9", 1), 0);
+	assert_int_equal(text_character("a", 0), 0);
+}
+
 static void classes_and_back(void **state)
 {
 	(void)state;
@@ -162,6 +196,7 @@ int main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(text_grows),
 		cmocka_unit_test(an_empty_text_is_a_string),
+		cmocka_unit_test(what_is_utf8),
 		cmocka_unit_test(classes_and_back),
 		cmocka_unit_test(a_store_keeps_the_last_sentence),
 		cmocka_unit_test(json_is_never_trusted),

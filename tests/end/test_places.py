@@ -51,6 +51,50 @@ def test_a_name_too_long_is_refused_at_once(project):
     assert not project.jobs()
 
 
+def test_names_that_are_not_utf8_are_refused(project):
+    """A record of a job is JSON: such names are refused with a sentence, before anything is read or written."""
+    def said(folder, *words, status):
+        done = subprocess.run(project.command(words), cwd=folder, env=project.environment, capture_output=True,
+                              stdin=subprocess.DEVNULL, timeout=end.GUARD_S)
+        assert done.returncode == status, (words, done)
+        return done.stderr
+
+    bad = os.fsencode(project.root) + b"/bad\xff"
+    os.mkdir(bad)
+    for words in (("run", "curvature", HULL, *MAP), ("submit", "curvature", HULL, *MAP), ("jobs",), ("jobs", "--json"),
+                  ("kill", "--all"), ("serve",)):
+        assert b"bad\xff' is not UTF-8" in said(bad, "batten", *words, status=1), words
+    assert not os.listdir(bad), os.listdir(bad)
+    shutil.copy(os.path.join(end.EXAMPLES, "hull.igs"), bad + b"/h.igs")
+    for words in ((os.fsdecode(bad) + "/h.igs#1", *MAP), (HULL, *MAP, "-o", "\udcff"), (HULL, "--grid", "\udcff"),
+                  (HULL, *MAP, "--group", "\udcff"), (HULL, *MAP, "-o", os.fsdecode(bad) + "/x")):
+        assert b"is not UTF-8" in said(project.folder, "batten", "submit", "curvature", *words, status=2), words
+    assert not project.jobs()
+
+
+def test_folders_of_odd_names(project):
+    for name in ("line\nbreak", "quo\"te'\\", "x" * 200, "h\x01\x7fé"):
+        folder = os.path.join(project.root, name)
+        os.mkdir(folder)
+        project.folder = folder
+        (done,) = project.submit("curvature", HULL, *MAP, "-o", "done")
+        (bad,) = project.submit("curvature", HULL, *MAP, "-o", "none/at/all")
+        project.run("batten", "wait", status=None)
+        for turn in range(2):  # the second: read again from the ledger
+            jobs = project.jobs()
+            assert jobs[done]["state"] == "done", jobs
+            assert jobs[done]["output"] == project.path("done")
+            assert jobs[done]["log"] == project.path(".batten", "logs", f"{done}.log")
+            assert "done.map.exr" in project.run("batten", "log", done).stdout
+            project.run("batten", "shutdown")
+        assert os.path.exists(project.path("done.map.exr"))
+        if jobs[bad]["state"] == "failed":
+            project.run("batten", "retry", bad)
+            project.run("batten", "wait", bad, status=None)
+            assert project.jobs()[bad]["state"] == "failed"
+        project.run("batten", "shutdown")
+
+
 def test_names_that_name_nothing(project):
     for name in ("", ".", "..", "folder/", "a/.."):
         for words in (("batten-curvature",), ("batten", "submit", "curvature")):

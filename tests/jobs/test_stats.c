@@ -135,6 +135,30 @@ static void states_have_words(void **state)
 	assert_int_equal(job_state_from_word(NULL), N_JOB_STATES);
 }
 
+static void a_record_is_utf8_whatever_was_said(void **state)
+{
+	static const char *const rows[][2] = {
+		{ "a\xff z", "a\xef\xbf\xbd z" },
+		{ "\xc3\xa9\"a\xc3\xa9z\n", "\xc3\xa9\"a\xc3\xa9z\n" },
+		{ "\xc3\xa9\xc3", "\xc3\xa9\xef\xbf\xbd" },
+		{ "\xe2\x82\"\n\\", "\xef\xbf\xbd\xef\xbf\xbd\"\n\\" },
+	};
+	(void)state;
+	for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+		struct Stats s;
+		struct text t = { 0 };
+		stats_init(&s);
+		s.reason = strdup(rows[i][0]);
+		stats_write_brief(&t, &s);
+		json_t *o = json_loads(t.s, 0, NULL);
+		assert_non_null(o);
+		assert_string_equal(json_text(o, "reason", ""), rows[i][1]);
+		json_decref(o);
+		text_finish(&t);
+		stats_finish(&s);
+	}
+}
+
 static void fraction_is_between_0_and_1(void **state)
 {
 	struct Stats s;
@@ -159,6 +183,7 @@ int main(void)
 		cmocka_unit_test(wrong_records_are_refused),
 		cmocka_unit_test(wrong_types_are_not_known),
 		cmocka_unit_test(states_have_words),
+		cmocka_unit_test(a_record_is_utf8_whatever_was_said),
 		cmocka_unit_test(fraction_is_between_0_and_1),
 	};
 	return cmocka_run_group_tests_name("stats", tests, NULL, NULL);
