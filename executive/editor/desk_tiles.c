@@ -49,9 +49,10 @@ static void split_views(struct desk *d)
 	const struct sight *s = world_sight(d->world);
 	const enum view_split was = d->split;
 	const int before = d->n_tiles;
+	const bool seven = world_shows_seven(d->world);
 
-	d->split = s->all_curvatures ? SPLIT_ONE : s->split;
-	d->n_tiles = s->all_curvatures ? N_QUANTITIES : d->split == SPLIT_ONE ? 1 : 2;
+	d->split = seven ? SPLIT_ONE : s->split;
+	d->n_tiles = seven ? N_QUANTITIES : d->split == SPLIT_ONE ? 1 : 2;
 	for (int i = 0; i < d->n_tiles; i++) {
 		if (i >= before)
 			d->tiles[i].view = d->tiles[0].view;

@@ -161,7 +161,7 @@ static void fill_in_sight(struct arguments *full, char room[2][CAMERA_TEXT_SIZE]
                           const struct world *w)
 {
 	const struct sight *s = world_sight((struct world *)w);
-	const char *shown = s->all_curvatures ? "curvatures" : view_split_words[s->split];
+	const char *shown = world_shows_seven(w) ? "curvatures" : view_split_words[s->split];
 
 	for (int k = 0; k < full->n; k++)
 		if (!strcmp(full->name[k], "views")) {

@@ -70,6 +70,14 @@ static enum status keep_before(struct overlay *o, struct overlay *old)
 	return ST_OK;
 }
 
+bool world_shows_seven(const struct world *w)
+{
+	for (int k = 0; k < w->n_overlays && !w->sight.no_image; k++)
+		if (w->overlays[k].kind == OVERLAY_IMAGE)
+			return false;
+	return w->sight.all_curvatures;
+}
+
 enum status world_show(struct world *w, const struct overlay *o)
 {
 	struct overlay copy = *o;

@@ -182,6 +182,8 @@ void world_hide(struct world *w, enum overlay_kind kind, int thing);
 void world_hide_job(struct world *w, enum overlay_kind kind, int thing);
 int world_overlays(const struct world *w);
 const struct overlay *world_overlay(const struct world *w, int k);
+/* All seven curvatures at once, which an image in the view hides. */
+bool world_shows_seven(const struct world *w);
 enum status world_keep_mark(struct world *w, const struct mark *m);
 int world_marks(const struct world *w);
 const struct mark *world_mark(const struct world *w, int k);

@@ -40,6 +40,16 @@ static void the_mouse_turns_and_words_tell(void **state)
 	desk_take_dirty(s->desk);
 	desk_tiles(s->desk, &n);
 	assert_int_equal(n, 7);
+	/* an image is there once, and gives them back */
+	const struct overlay image = { .kind = OVERLAY_IMAGE, .file = (char *)"a.shade.exr" };
+	for (int away = 0; away < 2; away++) {
+		assert_int_equal(world_show(s->world, &image), ST_OK);
+		world_sight(s->world)->no_image = away;
+		world_touch(s->world);
+		desk_take_dirty(s->desk);
+		desk_tiles(s->desk, &n);
+		assert_int_equal(n, away ? 7 : 1);
+	}
 }
 
 static void two_views_of_the_same_turn_by_themselves(void **state)

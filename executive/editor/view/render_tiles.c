@@ -5,9 +5,11 @@
 
 enum { KEY_COLUMN = 112 };
 
-static enum view_split split_of(const struct sight *s, enum picture_views views)
+static enum view_split split_of(const struct world *w, enum picture_views views)
 {
-	return views == PICTURE_SHOWN        ? s->all_curvatures ? SPLIT_ONE : s->split
+	const struct sight *s = world_sight((struct world *)w);
+
+	return views == PICTURE_SHOWN        ? world_shows_seven(w) ? SPLIT_ONE : s->split
 	       : views == PICTURE_CURVATURES ? SPLIT_ONE
 	                                     : (enum view_split)(views - PICTURE_ONE);
 }
@@ -67,10 +69,9 @@ static void add_eighth(struct render_tiles *tiles, const struct world *w,
 enum status render_tiles_init(struct render_tiles *tiles, const struct world *w,
                               const struct render_options *o, bool lines, const struct report *r)
 {
-	const struct sight *sight = world_sight((struct world *)w);
-	const enum view_split split = split_of(sight, o->views);
+	const enum view_split split = split_of(w, o->views);
 	const bool curvatures = !lines && (o->views == PICTURE_CURVATURES ||
-	                                   (o->views == PICTURE_SHOWN && sight->all_curvatures));
+	                                   (o->views == PICTURE_SHOWN && world_shows_seven(w)));
 	struct tile_px px[N_QUANTITIES];
 	tiles->n = view_tiles(split, curvatures, o->width, o->height, px);
 	const double column = fmin(KEY_COLUMN * o->scale, px[0].width / 2);
