@@ -200,6 +200,7 @@ static void groups_are_kept(void **state)
 	}
 	assert_int_equal(fore, 2);
 	assert_int_equal(aft, 1);
+	text_finish(&t);
 	model_finish(&a);
 	model_finish(&b);
 }

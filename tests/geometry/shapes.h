@@ -52,10 +52,12 @@ static inline struct curve shape_curve(int order, int n, bool rational, enum sha
 	if (curve_init(&c, order, n) != ST_OK)
 		abort();
 	shape_fill_knots(c.knots, order, n, how);
-	for (int i = 0; i < n; i++)
-		curve_set_point(&c, i,
-		                vec3(i, 3 * shape_random(&seed), 2 * shape_random(&seed) - 1),
-		                rational ? 0.5 + shape_random(&seed) : 1);
+	for (int i = 0; i < n; i++) {
+		/* one after the other: compilers differ in the order of arguments */
+		const double w = rational ? 0.5 + shape_random(&seed) : 1;
+		const double z = 2 * shape_random(&seed) - 1, y = 3 * shape_random(&seed);
+		curve_set_point(&c, i, vec3(i, y, z), w);
+	}
 	if (curve_check(&c, "curve", NULL) != ST_OK)
 		abort();
 	return c;
@@ -70,12 +72,13 @@ static inline struct surface shape_surface(const int order[2], const int n[2], b
 	for (int d = 0; d < 2; d++)
 		shape_fill_knots(s.knots[d], order[d], n[d], how);
 	for (int i = 0; i < n[0]; i++)
-		for (int j = 0; j < n[1]; j++)
-			surface_set_point(&s, i, j,
-			                  vec3(i + 0.3 * shape_random(&seed),
-			                       j + 0.3 * shape_random(&seed),
-			                       2 * shape_random(&seed) - 1),
-			                  rational ? 0.5 + shape_random(&seed) : 1);
+		for (int j = 0; j < n[1]; j++) {
+			const double w = rational ? 0.5 + shape_random(&seed) : 1;
+			const double z = 2 * shape_random(&seed) - 1;
+			const double y = j + 0.3 * shape_random(&seed);
+			const double x = i + 0.3 * shape_random(&seed);
+			surface_set_point(&s, i, j, vec3(x, y, z), w);
+		}
 	if (surface_check(&s, "surface", NULL) != ST_OK)
 		abort();
 	return s;
