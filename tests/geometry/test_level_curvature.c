@@ -244,22 +244,26 @@ static void test_wrong(void **state)
 	static const struct {
 		enum quantity quantity;
 		double value;
+		int raise;
 	} wrong[] = {
-		{ QUANTITY_ABSOLUTE, 0.5 },
-		{ N_QUANTITIES, 0.5 },
-		{ QUANTITY_MEAN, NAN },
+		{ QUANTITY_ABSOLUTE, 0.5, 0 },
+		{ N_QUANTITIES, 0.5, 0 },
+		{ QUANTITY_MEAN, NAN, 0 },
+		{ QUANTITY_GAUSSIAN, 0.1, 12 },
 	};
 	for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-		struct surface s = sphere();
+		struct surface s = sphere(), r;
 		struct report_store store;
 		struct level *l = NULL;
 		const struct level_field f = { .kind = LEVEL_CURVATURE,
 			                       .quantity = wrong[i].quantity,
 			                       .value = wrong[i].value };
+		assert_int_equal(surface_elevate(&r, &s, 0, wrong[i].raise), ST_OK);
 		report_store_init(&store);
-		assert_int_equal(level_create(&l, &s, &f, 1e-5, &store.report), ST_PARAMETER);
+		assert_int_equal(level_create(&l, &r, &f, 1e-5, &store.report), ST_PARAMETER);
 		assert_null(l);
 		assert_int_equal(store.n_errors, 1);
+		surface_finish(&r);
 		surface_finish(&s);
 	}
 }

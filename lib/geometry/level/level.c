@@ -31,6 +31,9 @@ const struct level_shape level_shapes[N_LEVEL_KINDS] = {
 	[LEVEL_CURVATURE] = { { 4, 4 }, { 0, 0 }, .valued = true, .several = true },
 };
 
+/* Above this degree rounding leaves so little of f that lines of curvature come to no end. */
+enum { CURVATURE_DEGREE_MAX = 152 };
+
 /* Right-handed rows of unit vectors, the last along d. */
 static void frame_make(struct vec3 d, double frame[3][3])
 {
@@ -343,6 +346,13 @@ static enum status level_set(struct level *l, const struct level_field *field, d
 		level_plane_bound(l);
 	if (field->kind == LEVEL_CURVATURE) {
 		level_curvature_degree(l);
+		const int degree = l->degree[0] > l->degree[1] ? l->degree[0] : l->degree[1];
+		if (degree > CURVATURE_DEGREE_MAX)
+			return report_error(
+			        r, ST_PARAMETER,
+			        "orders %d and %d of a surface give these lines of curvature an "
+			        "equation of degree %d, expected %d at most; lower the degree",
+			        s->net.order[0], s->net.order[1], degree, CURVATURE_DEGREE_MAX);
 		l->side = s->quantity == QUANTITY_KMAX || s->quantity == QUANTITY_KMIN;
 	}
 	return ST_OK;
