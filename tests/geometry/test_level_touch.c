@@ -188,12 +188,99 @@ static void test_seam(void **state)
 	surface_finish(&s);
 }
 
+/* How far from the level, of the size. */
+static const double nearly[] = { 1e-9, 1e-7, 1e-5 };
+enum { N_NEARLY = sizeof nearly / sizeof *nearly };
+
+static double noise_size; /* of the heights */
+
+/* Numbers without a rule: what is left of a plane in a file with few digits. */
+static double noise(int i, int j, int n)
+{
+	const unsigned k = 2654435761u * (unsigned)(i * n + j + 1);
+	return noise_size * ((k >> 8) / 8388608.0 - 1);
+}
+
+static size_t pieces_of(const struct level_result *x)
+{
+	size_t n = 0;
+	for (size_t b = 0; b < x->n_branches; b++)
+		n += (size_t)x->branches[b].uv.n / 3;
+	return n;
+}
+
+/* A face that is plane but for its last digits, the light in it: no more noise is followed than the tolerance allows. */
+static void test_nearly_plane(void **state)
+{
+	(void)state;
+	for (int i = 0; i < N_NEARLY; i++)
+		for (int k = 0; k < 3; k++) {
+			const double tolerance = 10 * (k == 0 ? 1e-4 : k == 1 ? 1e-6 : 1e-8);
+			struct surface s;
+			struct level_result x;
+			noise_size = 10 * nearly[i];
+			assert_int_equal(shape_make(&s, 4, 7, noise), ST_OK);
+			assert_int_equal(shape_trace(&s, LEVEL_ISOPHOTE, vec3(0.6, 0.8, 0), 0,
+			                             tolerance, &x, NULL),
+			                 ST_OK);
+			assert_true(x.max_error <= tolerance);
+			assert_true(pieces_of(&x) <= 400);
+			/* the curve's course would be rounding's */
+			if (nearly[i] == 1e-9 && k == 2) {
+				assert_int_equal(x.n_branches, 0);
+				assert_int_equal(x.n_undecided, 1);
+				assert_int_equal(x.undecided[0].kind, LEVEL_REGION);
+			}
+			level_result_finish(&x);
+			surface_finish(&s);
+		}
+}
+
+/* The height -x^2 / 20, less a wave that tilts the border x = 0 by its size. */
+static double arched(int i, int j, int n)
+{
+	const double x = 10.0 * i / (n - 1);
+	return -x * x / 20 + noise_size * x * ((j % 3) - 1);
+}
+
+/* A border nearly in the level: curves are where it is, with few pieces, as near as asked for. */
+static void test_nearly_border(void **state)
+{
+	(void)state;
+	for (int i = 0; i < N_NEARLY; i++)
+		for (int k = 0; k < 2; k++) {
+			const double tolerance = k ? 1e-7 : 1e-4;
+			struct surface s;
+			struct level_result x;
+			noise_size = nearly[i];
+			assert_int_equal(shape_make(&s, 3, 8, arched), ST_OK);
+			/* the light is the border's normal turned by a right angle */
+			const double h = s.points[4 * 8 + 2] - s.points[2];
+			const double w = s.points[4 * 8] - s.points[0];
+			assert_int_equal(shape_trace(&s, LEVEL_SILHOUETTE, vec3(w, 0, h), 0,
+			                             tolerance, &x, NULL),
+			                 ST_OK);
+			assert_true(x.max_error <= tolerance);
+			assert_true(pieces_of(&x) <= 400);
+			for (size_t b = 0; b < x.n_branches; b++)
+				for (int q = 0; q <= 20; q++) {
+					const struct curve *c = &x.branches[b].space;
+					const double t = c->domain[1] * q / 20;
+					assert_true(fabs(curve_point(c, t).x) <=
+					            100 * nearly[i] + tolerance);
+				}
+			level_result_finish(&x);
+			surface_finish(&s);
+		}
+}
+
 int main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(test_touch),    cmocka_unit_test(test_no_area),
-		cmocka_unit_test(test_crossing), cmocka_unit_test(test_singular),
-		cmocka_unit_test(test_seam),
+		cmocka_unit_test(test_touch),         cmocka_unit_test(test_no_area),
+		cmocka_unit_test(test_crossing),      cmocka_unit_test(test_singular),
+		cmocka_unit_test(test_seam),          cmocka_unit_test(test_nearly_plane),
+		cmocka_unit_test(test_nearly_border),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,6 +28,18 @@ enum { AGAIN_LEVELS = 8, AGAIN_MAX = 4096 };
 /* A side cleared of rounding has numbers below this part of the error. */
 #define SIDE_ZERO 1e-6
 
+/* Where normals are so near to 90 degrees, or as near as the tolerance is of the size, a flat face may be in the level but
+ * for its last digits. */
+#define LEVEL_SHARE 1e-4
+
+/* Smaller cells are no plateau: they are about crossings. */
+enum { PLATEAU_LEVELS = 24 };
+
+/* It is where the change of f over a tolerance is nowhere above so many times the error; where it is below the second
+ * somewhere, the cell is halved. */
+#define LOOSE_TIMES 32
+#define FIRM_TIMES  8
+
 enum monotone { MONOTONE_NOT, MONOTONE_RISING, MONOTONE_FALLING };
 
 static struct undecided *undecided_add(struct tracer *t, const struct cell *cell, bool flat)
@@ -275,6 +287,52 @@ static bool cell_monotone(const struct tracer *t, const struct cell *cell, const
 	return monotone_in(t, c, 0, cell->error) || monotone_in(t, c, 1, cell->error);
 }
 
+/* The least or the largest change of f over a tolerance in direction d. */
+static void slopes_in(const struct tracer *t, const struct cell *cell, const double *c, int d,
+                      double *least, double *most)
+{
+	const struct level *l = t->level;
+	const int m = l->degree[0], n = l->degree[1];
+	const size_t step = d == 0 ? (size_t)n + 1 : 1;
+	const int rows = d == 0 ? m : m + 1, columns = d == 0 ? n + 1 : n;
+	const double first = l->surface->shapes[t->patch].first[d];
+	*least = INFINITY;
+	*most = 0;
+	for (int i = 0; i < rows; i++)
+		for (int j = 0; j < columns; j++) {
+			const double *x = c + (size_t)i * (n + 1) + j;
+			*least = smaller(*least, fabs(x[step] - x[0]));
+			*most = larger(*most, fabs(x[step] - x[0]));
+		}
+	const double times = ldexp(l->degree[d] * l->tolerance / first, cell->level[d]);
+	*least *= times;
+	*most *= times;
+}
+
+enum firmness { CELL_FIRM, CELL_MIXED, CELL_LOOSE };
+
+/*
+ * The normal is nearly at 90 degrees all over the cell, and f so flat that rounding leaves much of the tolerance, or more
+ * than it: such a cell is a plateau, whatever the signs of f in it.
+ */
+static enum firmness cell_firmness(const struct tracer *t, const struct cell *cell, const double *c,
+                                   double most)
+{
+	const struct level *l = t->level;
+	const struct level_surface *s = l->surface;
+	if ((s->kind != LEVEL_ISOPHOTE && s->kind != LEVEL_SILHOUETTE) || l->value != 0 ||
+	    cell->level[0] + cell->level[1] >= PLATEAU_LEVELS)
+		return CELL_FIRM;
+	if (most > larger(LEVEL_SHARE, l->tolerance / s->net.size) * t->bound.size)
+		return CELL_FIRM;
+	double least[2], largest[2];
+	for (int d = 0; d < 2; d++)
+		slopes_in(t, cell, c, d, &least[d], &largest[d]);
+	if (larger(largest[0], largest[1]) < LOOSE_TIMES * cell->error)
+		return CELL_LOOSE;
+	return larger(least[0], least[1]) < FIRM_TIMES * cell->error ? CELL_MIXED : CELL_FIRM;
+}
+
 /* True where the cell is certain, and its arcs are done. */
 static bool cell_decide(struct tracer *t, const struct cell *cell, const double *c)
 {
@@ -361,7 +419,12 @@ static void cell_search(struct tracer *t, double *c, struct cell cell, int depth
 		return;
 	if (levels > 0 && levels % AGAIN_LEVELS == 0 && level_isophote_clear(t, &cell))
 		return;
-	if (one_side && cell_decide(t, &cell, c))
+	const enum firmness firmness = cell_firmness(t, &cell, c, most);
+	if (firmness == CELL_LOOSE) {
+		undecided_add(t, &cell, false);
+		return;
+	}
+	if (firmness == CELL_FIRM && one_side && cell_decide(t, &cell, c))
 		return;
 	int limit = deepest(t),
 	    d = bend_in(c, m, n, 0) * m * m >= bend_in(c, m, n, 1) * n * n ? 0 : 1;
