@@ -2,9 +2,8 @@
  *
  * A loop is a closed chain of curves in the surface's u,v plane, each starting where the one before
  * ends. A point belongs to the trimmed surface if it is inside an outer loop (or there is none: the
- * whole domain) and outside every inner one. trim_test has it so also where loops cross or lie upon each
- * other; trim_area may be wrong where they cross; tessellate() fills what all loops go around an odd
- * number of times.
+ * whole domain) and outside every inner one. trim_test and trim_area have it so also where loops cross
+ * or lie upon each other; tessellate() fills what all loops go around an odd number of times.
  */
 #ifndef BATTEN_TRIM_H
 #define BATTEN_TRIM_H
@@ -36,8 +35,9 @@ enum status trim_loop_add(struct trim_loop *loop, struct curve *c);
  * Check and mend: curves put in order and direction (outer loops counter-clockwise, inner ones
  * clockwise), gaps up to `tolerance` (in space, file units) closed, what runs along the domain's
  * border but for less than the tolerance laid on it, loops over the seam of a closed surface, or a
- * little (a hundredth of the domain) out of an open one, cut there. A loop that winds around a closed surface leaves what is on its left; two of them
- * leave what lies between. What was mended is said as a note; what cannot be is an error and leaves
+ * little (a hundredth of the domain) out of an open one, cut there. Of loops that are the same curve
+ * by curve one is kept. A loop that winds around a closed surface leaves what is on its left; two of
+ * them leave what lies between. What was mended is said as a note; what cannot be is an error and leaves
  * *t as it was. That a loop does not cross itself is not checked; if it does, what it goes around
  * an odd number of times is inside. `what` names the face.
  * Errors: ST_INPUT (a loop not closed, leaving the domain), ST_RESOURCE.

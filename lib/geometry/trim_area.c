@@ -2,8 +2,8 @@
  *
  * The spans are cells; in each the area is, by Green's theorem, a sum of integrals along v of
  * F(u, v), the integral of |Su x Sv| over u from the cell's left side: along every piece of loop in
- * the cell, with the sign of what it bounds, and along the right side where that is inside. All
- * integrands are smooth. A cell is quartered until its quarters agree with it.
+ * the cell, with the sign of what it bounds and cut where another piece crosses it, and along the
+ * right side where that is inside. All integrands are smooth. A cell is quartered until its quarters agree with it.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -60,20 +60,47 @@ static bool clip(const struct trim_piece *p, const struct cell *c, double t[2])
 	return t[0] < t[1];
 }
 
-static double along_piece(const struct area *a, const struct cell *c, int piece, const double t[2])
+static int compare(const void *a, const void *b)
+{
+	double x = *(const double *)a, y = *(const double *)b;
+	return (x > y) - (x < y);
+}
+
+/* Part of a piece that no other crosses. */
+static double along_part(const struct area *a, const struct cell *c, int piece, double from,
+                         double to)
 {
 	const struct trim_piece *p = &a->test->pieces.pieces[piece];
+	const double h = 0.5 * (to - from);
 	double uv[2], d[2], sum = 0;
-	trim_piece_point(p, 0.5 * (t[0] + t[1]), uv, d);
+	trim_piece_point(p, from + h, uv, d);
 	const int step = trim_test_step(a->test, piece, uv[0], uv[1]);
 	if (step == 0)
 		return 0;
-	const double h = 0.5 * (t[1] - t[0]);
 	for (int i = 0; i < GAUSS; i++) {
-		trim_piece_point(p, t[0] + h * (1 + gauss_node[i]), uv, d);
+		trim_piece_point(p, from + h * (1 + gauss_node[i]), uv, d);
 		sum += gauss_weight[i] * d[1] * to_left(a, c, uv[0], uv[1]);
 	}
 	return step * sum * h;
+}
+
+static double along_piece(struct area *a, const struct cell *c, int piece, const double t[2])
+{
+	double *at = NULL, sum = 0, from = t[0];
+	int n = 0;
+	if (trim_test_crossings(a->test, piece, t, c->pieces, c->n, &at, &n) != ST_OK)
+		a->st = ST_RESOURCE;
+	if (n)
+		qsort(at, n, sizeof *at, compare);
+	for (int i = 0; i <= n && a->st == ST_OK; i++) {
+		const double to = i < n ? fmin(at[i], t[1]) : t[1];
+		if (!(to > from))
+			continue;
+		sum += along_part(a, c, piece, from, to);
+		from = to;
+	}
+	free(at);
+	return sum;
 }
 
 /* The cell's right side from v0 to v1, where no loop crosses it. */
@@ -86,12 +113,6 @@ static double along_side(const struct area *a, const struct cell *c, double v0, 
 	for (int i = 0; i < GAUSS; i++)
 		sum += gauss_weight[i] * to_left(a, c, c->hi[0], v0 + h * (1 + gauss_node[i]));
 	return sum * h;
-}
-
-static int compare(const void *a, const void *b)
-{
-	double x = *(const double *)a, y = *(const double *)b;
-	return (x > y) - (x < y);
 }
 
 static double area_once(struct area *a, const struct cell *c)

@@ -219,6 +219,9 @@ static void say(const struct mender *m)
 	else if (m->cut)
 		report_info(m->r, "%s: %d trimming loops cut at the seam or the border", m->what,
 		            m->cut);
+	if (m->doubled)
+		report_info(m->r, "%s: %d trimming loops left out that are there twice", m->what,
+		            m->doubled);
 }
 
 /* Loops that wind around, until all are known. */
@@ -276,14 +279,16 @@ enum status trim_mend(struct trim *t, const struct surface *s, double tolerance,
 	mender_init(&m);
 	enum status st = round ? mend_loops(&m, t, &out, round) : ST_RESOURCE;
 	free(round);
+	for (int i = 0; i < out.n && st == ST_OK; i++)
+		settle(&m, &out.loops[i]);
+	if (st == ST_OK)
+		st = trim_drop_doubled(&m, &out);
 	if (st != ST_OK) {
 		if (st == ST_RESOURCE)
 			report_error(r, st, "%s: no memory for its trimming loops", what);
 		trim_finish(&out);
 		return st;
 	}
-	for (int i = 0; i < out.n; i++)
-		settle(&m, &out.loops[i]);
 	say(&m);
 	trim_finish(t);
 	*t = out;

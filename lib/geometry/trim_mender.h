@@ -14,10 +14,10 @@ struct mender {
 	bool closed[2];
 	const char *what;
 	const struct report *r;
-	int loop;                     /* at hand, from 1 */
-	int gaps, turned, moved, cut; /* what was mended */
-	double largest;               /* gap, in space */
-	double beyond;                /* how far a loop leaves an open border, in space */
+	int loop;                              /* at hand, from 1 */
+	int gaps, turned, moved, cut, doubled; /* what was mended */
+	double largest;                        /* gap, in space */
+	double beyond;                         /* how far a loop leaves an open border, in space */
 };
 
 /* A curve's end (0: start, 1: end; clamped), read, set, and all of it moved in direction d. */
@@ -54,5 +54,9 @@ enum status trim_seam_cut(struct mender *m, const struct trim_loop *loop, int d,
  */
 enum status trim_seam_open(struct mender *m, const struct trim_loop *loop, int d, int way,
                            struct trim_loop *out);
+
+/* Of settled loops that lie upon each other, curve by curve within the tolerance, keep one.
+ * Errors: ST_RESOURCE. */
+enum status trim_drop_doubled(struct mender *m, struct trim *t);
 
 #endif

@@ -63,4 +63,10 @@ bool trim_test_state(const struct trim_test *x, double u, double v);
  * right is not, -1 the other way, else 0. */
 int trim_test_step(const struct trim_test *x, int piece, double u, double v);
 
+/* Parameters of a piece between t[0] and t[1] where `others` (all that may meet that part of it)
+ * cross or touch it, unsorted; between two that follow each other trim_test_step() does not change,
+ * but where curves meet twice within a small part of both. *at is fresh. Errors: ST_RESOURCE. */
+enum status trim_test_crossings(const struct trim_test *x, int piece, const double t[2],
+                                const int *others, int n_others, double **at, int *n);
+
 #endif

@@ -168,6 +168,116 @@ int trim_test_step(const struct trim_test *x, int piece, double u, double v)
 	return state_inside(&left, x) - state_inside(&right, x);
 }
 
+/* Parameters of one piece that are being gathered. */
+struct places {
+	double *at; /* owned */
+	int n, room;
+};
+
+static enum status places_add(struct places *p, double t)
+{
+	if (p->n == p->room) {
+		const int room = p->room ? 2 * p->room : 8;
+		double *more = reallocarray(p->at, room, sizeof *more);
+		if (!more)
+			return ST_RESOURCE;
+		p->at = more;
+		p->room = room;
+	}
+	p->at[p->n++] = t;
+	return ST_OK;
+}
+
+/* Where the difference of two pieces' u, off[0] and off[1] at v[0] and v[1], changes its sign. */
+static double place_between(const struct trim_piece *p, const struct trim_piece *q,
+                            const double v[2], const double off[2])
+{
+	double lo = v[0], hi = v[1], a = off[0], b = off[1], at = lo;
+	/* false position; the side that stays counts half each time (Illinois) */
+	for (int i = 0, stays = 0; i < 40 && hi - lo > 1e-15 * (v[1] - v[0]); i++) {
+		at = lo + (hi - lo) * (a / (a - b));
+		if (!(at > lo && at < hi))
+			at = (lo + hi) / 2;
+		const double x = piece_u(p, at) - piece_u(q, at);
+		if (x == 0 || fabs(x) < 1e-15 * fabs(off[0] - off[1]))
+			break;
+		if ((x > 0) == (a > 0)) {
+			lo = at;
+			a = x;
+			b = stays == 1 ? b / 2 : b;
+			stays = 1;
+		} else {
+			hi = at;
+			b = x;
+			a = stays == -1 ? a / 2 : a;
+			stays = -1;
+		}
+	}
+	return at;
+}
+
+/* Where p crosses or touches q at v[0] <= v <= v[1]. */
+static enum status places_of_pair(struct places *out, const struct trim_piece *p,
+                                  const struct trim_piece *q, const double v[2], double near)
+{
+	enum { PARTS = 12 };
+	const double own[2] = { piece_u(p, v[0]), piece_u(p, v[1]) };
+	/* a level q is wherever its ends are */
+	const bool level = q->v[0] == q->v[1];
+	const double its[2] = { level ? q->lo_u : piece_u(q, v[0]),
+		                level ? q->hi_u : piece_u(q, v[1]) };
+	if (fmax(own[0], own[1]) < fmin(its[0], its[1]) - near ||
+	    fmin(own[0], own[1]) > fmax(its[0], its[1]) + near)
+		return ST_OK;
+	if (level || v[0] == v[1])
+		return places_add(out, trim_piece_find(p, 1, v[0]));
+	/* those of opposite slopes meet once */
+	const bool once = (!p->points && !q->points) || (own[1] - own[0]) * (its[1] - its[0]) <= 0;
+	const int parts = once ? 1 : PARTS;
+	double at[2] = { v[0], v[0] }, off[2] = { 0, 0 };
+	enum status st = ST_OK;
+	for (int i = 0; i <= parts && st == ST_OK; i++) {
+		at[1] = i < parts ? v[0] + (v[1] - v[0]) * i / parts : v[1];
+		off[1] = i == 0       ? own[0] - its[0]
+		         : i == parts ? own[1] - its[1]
+		                      : piece_u(p, at[1]) - piece_u(q, at[1]);
+		if (fabs(off[1]) <= near)
+			st = places_add(out, trim_piece_find(p, 1, at[1]));
+		else if (off[0] * off[1] < 0)
+			st = places_add(out, trim_piece_find(p, 1, place_between(p, q, at, off)));
+		at[0] = at[1];
+		off[0] = off[1];
+	}
+	return st;
+}
+
+enum status trim_test_crossings(const struct trim_test *x, int piece, const double t[2],
+                                const int *others, int n_others, double **at, int *n)
+{
+	const struct trim_piece *p = &x->pieces.pieces[piece];
+	const double near = 1e-12 * (x->domain[0][1] - x->domain[0][0]);
+	struct places out = { 0 };
+	enum status st = ST_OK;
+	double a[2], b[2], d[2];
+	trim_piece_point(p, t[0], a, d);
+	trim_piece_point(p, t[1], b, d);
+	const double lo = fmin(a[0], b[0]) - near, hi = fmax(a[0], b[0]) + near;
+	const int from = x->first[band_of(x, a[1])], to = x->first[band_of(x, b[1]) + 1];
+	if (to - from < n_others) {
+		others = x->list + from;
+		n_others = to - from;
+	}
+	for (int i = 0; i < n_others && st == ST_OK; i++) {
+		const struct trim_piece *q = &x->pieces.pieces[others[i]];
+		const double v[2] = { fmax(a[1], q->v[0]), fmin(b[1], q->v[1]) };
+		if (others[i] != piece && v[0] <= v[1] && q->hi_u >= lo && q->lo_u <= hi)
+			st = places_of_pair(&out, p, q, v, near);
+	}
+	*at = out.at;
+	*n = out.n;
+	return st;
+}
+
 bool trim_test_inside(const struct trim_test *x, double u, double v)
 {
 	return trim_test_state(x, fmin(fmax(u, x->domain[0][0]), x->domain[0][1]),
