@@ -18,6 +18,7 @@ struct outline {
 	double area;    /* twice, counter-clockwise positive */
 	double runs[2]; /* from where it begins to where it ends: some periods where it winds */
 	int holders;    /* loops that hold it */
+	bool twin;      /* of one before; holds nothing */
 };
 
 static enum status outline_init(struct outline *o, const struct trim_loop *l)
@@ -80,6 +81,40 @@ static bool holds(const struct trimmer *t, const struct outline *o, const struct
 		votes += held;
 	}
 	return 2 * votes > looks;
+}
+
+static bool lies_on(const struct outline *o, struct vec3 p, double near)
+{
+	for (int i = 0; i < o->n; i++) {
+		struct vec3 a = o->chords[i][0], d = vec3_sub(o->chords[i][1], a);
+		double length = vec3_dot(d, d);
+		double t = length > 0 ? vec3_dot(vec3_sub(p, a), d) / length : 0;
+		struct vec3 foot = vec3_add(a, vec3_scale(d, fmin(fmax(t, 0), 1)));
+		if (vec3_length(vec3_sub(p, foot)) <= near)
+			return true;
+	}
+	return false;
+}
+
+/* Do two outlines lie upon each other but for a little? */
+static bool alike(const struct outline *a, const struct outline *b)
+{
+	static const double little = 1e-6; /* of the outline */
+	const double near = little * box_diagonal(&a->box);
+	bool all = fabs(fabs(a->area) - fabs(b->area)) <= little * fabs(a->area) &&
+	           vec3_length(vec3_sub(a->box.lo, b->box.lo)) <= near &&
+	           vec3_length(vec3_sub(a->box.hi, b->box.hi)) <= near;
+	for (int i = 0; i < a->n && all; i++)
+		all = lies_on(b, a->chords[i][0], near);
+	return all;
+}
+
+/* Loops of a face that does not tell which are outer ones may be there twice: one of them counts. */
+static void find_twins(struct outline *o, int n)
+{
+	for (int i = 0; i < n; i++)
+		for (int j = 0; j < i && !o[i].twin; j++)
+			o[i].twin = !o[j].twin && alike(&o[i], &o[j]);
 }
 
 static bool winds(const struct trimmer *t, const struct outline *o)
@@ -147,9 +182,13 @@ enum status iges_nest(const struct trimmer *t, bool told, bool by_sense, struct 
 		st = outline_init(&o[i], &trim->loops[i]);
 		any |= winds(t, &o[i]);
 	}
+	if (st == ST_OK && !any && !told)
+		find_twins(o, n);
 	for (int i = 0; i < n && st == ST_OK && !any; i++)
 		for (int j = 0; j < n; j++)
-			o[i].holders += i != j && holds(t, &o[j], &o[i]);
+			o[i].holders += i != j && !o[j].twin &&
+			                !(o[i].twin && alike(&o[i], &o[j])) &&
+			                holds(t, &o[j], &o[i]);
 	/* what loops around a closed surface leave is on their left: no loop is an outer one */
 	if (st == ST_OK && (any || (by_sense && !told && closed && all_clockwise(o, n))))
 		for (int i = 0; i < n; i++)

@@ -217,6 +217,18 @@ static const struct {
 	  M_PI *(0.16 - 0.09),
 	  { 0.5, 0.5, 0 },
 	  "within holes" },
+	/* a ring whose outer loop is there twice, by other curves in the same place */
+	{ { { 143, 0, "143,1,3,3,5,7,9;" },
+	    { 128, 0, SQUARE },
+	    { 141, 0, "141,1,2,3,1,11,1,1,11;" },
+	    { 141, 0, "141,1,2,3,1,13,1,1,13;" },
+	    { 141, 0, "141,1,2,3,1,15,1,1,15;" },
+	    { 100, 0, DISK },
+	    { 100, 0, "100,0.,.5,.5,.6,.5,.6,.5;" },
+	    { 100, 0, DISK } },
+	  M_PI * 0.15,
+	  { 0.5, 0.5, 0 },
+	  "there twice" },
 	/* the outer loop stands second, in 510 and in 144 */
 	{ { { 510, 0, "510,3,2,1,7,5;" },
 	    { 128, 0, SQUARE },
