@@ -4,7 +4,7 @@ import os
 import end
 
 TEAPOT = os.path.join(end.EXAMPLES, "teapot.igs")
-LONG = ("raytrace", TEAPOT, "--size", "1600x1600", "--samples", "4")
+LONG = ("raytrace", TEAPOT, "--size", "3000x3000", "--samples", "8")  # minutes: it ends by being killed
 SRUN = """for a; do case $a in --job-name=*) name=${a#*=};; esac; worker=$a; done
 echo $$ >"$PLAYED/$name.pid"; exec "$worker"
 """
