@@ -71,6 +71,8 @@ def test_scenes_have_names_of_their_own(project):
     assert len(names) == 5 and {"wigley-1.shade.exr", "wigley-2.shade.exr",
                                 "wigley-1+wigley-2.shade.exr"} < set(names), names
     assert sum(n.startswith("wigley-1+8-") for n in names) == 2, names
+    # pictures are drawn by Mesa, whose own leaks cannot be told by their names any more
+    project.environment["ASAN_OPTIONS"] = "detect_leaks=0:" + os.environ.get("ASAN_OPTIONS", "")
     script(project, "V175 file=wigley.base", "V79 grid=8x8 surfaces=shown", "V57 lines_u=3 surfaces=shown",
            "V189 on=no", "V179 to=seven.png size=320x200")
     maps = [n for n in os.listdir(project.folder) if n.endswith(".map.exr")]
