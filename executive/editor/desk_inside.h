@@ -279,6 +279,7 @@ int desk_jobs_count(const struct desk *d); /* in the tab */
 bool desk_job_can(const struct Stats *s, enum message_type type);
 void desk_jobs_do(struct desk *d, enum message_type type);
 void desk_job_open(struct desk *d, const struct Stats *s);
+void desk_jobs_begin(struct desk *d);           /* open the list, at its top */
 void desk_job_show(struct desk *d, int64_t id); /* in the list, with its log */
 bool desk_picked(const struct desk *d, int64_t id);
 void desk_duration(double seconds, char out[96]); /* "1:24", "2 h 10" */

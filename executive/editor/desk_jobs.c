@@ -116,6 +116,43 @@ static void focus(struct desk *d, int64_t id)
 	changed(d);
 }
 
+static void reveal(struct desk *d, int at)
+{
+	if (at < d->job_scroll)
+		d->job_scroll = at;
+	else if (d->job_rows > 0 && at >= d->job_scroll + d->job_rows)
+		d->job_scroll = at - d->job_rows + 1;
+}
+
+static void step_focus(struct desk *d, int step, bool picking)
+{
+	int n = d->shelf.n, at = -1;
+	const struct Stats **row = calloc((size_t)n + 1, sizeof *row);
+
+	n = row ? desk_jobs_rows(d, row, n) : 0;
+	for (int i = 0; i < n; i++)
+		if (row[i]->id == d->job_focus)
+			at = i;
+	if (n) {
+		at = at < 0 ? 0 : at + step < 0 ? 0 : at + step >= n ? n - 1 : at + step;
+		focus(d, row[at]->id);
+		if (picking)
+			pick(d, row[at]->id, true);
+		reveal(d, at);
+	}
+	free(row);
+}
+
+void desk_jobs_begin(struct desk *d)
+{
+	if (d->page == PAGE_JOBS)
+		return;
+	desk_set_page(d, PAGE_JOBS);
+	d->job_scroll = 0;
+	d->job_focus = 0;
+	step_focus(d, 0, false);
+}
+
 void desk_job_show(struct desk *d, int64_t id)
 {
 	if (!job_shelf_find(&d->shelf, id) || d->page == PAGE_QUESTION)
@@ -126,6 +163,7 @@ void desk_job_show(struct desk *d, int64_t id)
 	d->n_picked = 0;
 	pick(d, id, true);
 	focus(d, id);
+	step_focus(d, 0, false);
 }
 
 static void pick_to(struct desk *d, int64_t id)
@@ -343,33 +381,6 @@ bool desk_jobs_text(struct desk *d, uint32_t c)
 	}
 }
 
-static void reveal(struct desk *d, int at)
-{
-	if (at < d->job_scroll)
-		d->job_scroll = at;
-	else if (d->job_rows > 0 && at >= d->job_scroll + d->job_rows)
-		d->job_scroll = at - d->job_rows + 1;
-}
-
-static void step_focus(struct desk *d, int step, bool picking)
-{
-	int n = d->shelf.n, at = -1;
-	const struct Stats **row = calloc((size_t)n + 1, sizeof *row);
-
-	n = row ? desk_jobs_rows(d, row, n) : 0;
-	for (int i = 0; i < n; i++)
-		if (row[i]->id == d->job_focus)
-			at = i;
-	if (n) {
-		at = at < 0 ? 0 : at + step < 0 ? 0 : at + step >= n ? n - 1 : at + step;
-		focus(d, row[at]->id);
-		if (picking)
-			pick(d, row[at]->id, true);
-		reveal(d, at);
-	}
-	free(row);
-}
-
 bool desk_jobs_key(struct desk *d, enum desk_key key, unsigned mods)
 {
 	const struct Stats *s = job_shelf_find(&d->shelf, d->job_focus);
@@ -386,6 +397,12 @@ bool desk_jobs_key(struct desk *d, enum desk_key key, unsigned mods)
 		return true;
 	case KEY_PAGE_DOWN:
 		step_focus(d, 10, false);
+		return true;
+	case KEY_HOME:
+		step_focus(d, -d->shelf.n, false);
+		return true;
+	case KEY_END:
+		step_focus(d, d->shelf.n, false);
 		return true;
 	case KEY_LEFT:
 	case KEY_RIGHT:

@@ -10,7 +10,10 @@ void desk_toggle_page(struct desk *d, enum page page)
 	if (d->page == PAGE_QUESTION)
 		return;
 	d->under = page == PAGE_HELP || page == PAGE_SEARCH ? d->page : PAGE_NONE;
-	desk_set_page(d, page);
+	if (page == PAGE_JOBS)
+		desk_jobs_begin(d);
+	else
+		desk_set_page(d, page);
 }
 
 static void undo(struct desk *d, bool again)

@@ -32,7 +32,7 @@ static void list_jobs(struct desk *d)
 	static const char *const none[] = { NULL };
 
 	desk_journal(d, "V162", none);
-	desk_set_page(d, PAGE_JOBS);
+	desk_jobs_begin(d);
 }
 
 /* With jobs picked already it is done; else the list opens to pick them. */
@@ -48,7 +48,7 @@ static void for_jobs(struct desk *d, enum message_type type, const char *key)
 		desk_jobs_do(d, type);
 		return;
 	}
-	desk_set_page(d, PAGE_JOBS);
+	desk_jobs_begin(d);
 	desk_say(d, REPORT_INFO, "Pick jobs in the list, then %s.", key);
 }
 

@@ -51,6 +51,25 @@ static void jobs_are_picked_and_steered(void **state)
 	assert_int_equal(s->ids[0], 3);
 }
 
+static void the_list_opens_at_its_top(void **state)
+{
+	struct stand *s = *state;
+
+	stand_some_jobs(s);
+	stand_put_job(s, 1, JOB_DONE,
+	              NULL); /* what has ended last is at hand for O and L, not in the list */
+	desk_jobs_changed(s->desk, LINK_UP, "");
+	stand_type(s, "j");
+	assert_int_equal(desk_jobs_model(s->desk)->focus, 0);
+	stand_key(s, KEY_END);
+	assert_int_equal(desk_jobs_model(s->desk)->focus, 3);
+	stand_key(s, KEY_HOME);
+	assert_int_equal(desk_jobs_model(s->desk)->focus, 0);
+	stand_key(s, KEY_END);
+	stand_type(s, "jj");
+	assert_int_equal(desk_jobs_model(s->desk)->focus, 0);
+}
+
 static void slots_are_counted(void **state)
 {
 	struct stand *s = *state;
@@ -111,6 +130,7 @@ int main(void)
 {
 	const struct CMUnitTest tests[] = {
 		TEST(jobs_are_picked_and_steered),
+		TEST(the_list_opens_at_its_top),
 		TEST(slots_are_counted),
 		TEST(the_world_menu_steers_jobs),
 		TEST(news_of_jobs_is_told_once_with_the_bell),
