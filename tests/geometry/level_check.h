@@ -174,4 +174,32 @@ static inline struct surface stretched(const struct surface *s, double factor)
 	return r;
 }
 
+/* Isophotes stay the same with knots inserted, in a higher degree, in other parameters, with u and v exchanged
+ * and with one half run through faster. */
+static inline void assert_forms(const struct surface *s, struct vec3 d, double value, int raise)
+{
+	const double knots[] = { 0.31, 0.5, 0.5, 0.77 };
+	const struct count c = count_of(s, LEVEL_ISOPHOTE, d, value);
+	struct surface r;
+	for (int way = 0; way < 2; way++) {
+		assert_int_equal(surface_insert(&r, s, way, knots, 4), ST_OK);
+		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+		surface_finish(&r);
+		assert_int_equal(surface_elevate(&r, s, way, raise), ST_OK);
+		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+		surface_finish(&r);
+	}
+	assert_int_equal(surface_copy(&r, s), ST_OK);
+	surface_reparametrise(&r, 0, -3, 100);
+	assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+	/* exchanged, the normal is turned */
+	assert_int_equal(surface_exchange(&r), ST_OK);
+	assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, -value));
+	assert_same(c, count_of(&r, LEVEL_ISOPHOTE, vec3_scale(d, -4), value));
+	surface_finish(&r);
+	r = stretched(s, 3.7);
+	assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
+	surface_finish(&r);
+}
+
 #endif

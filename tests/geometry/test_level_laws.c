@@ -11,28 +11,10 @@ static void test_forms(void **state)
 	struct surface s, r;
 	assert_int_equal(shape_make(&s, 4, 14, shape_wavy), ST_OK);
 	for (int k = 0; k < 3; k++) {
-		const double value = cosine(25 + 15 * k), knots[] = { 0.31, 0.5, 0.5, 0.77 };
+		const double value = cosine(25 + 15 * k);
 		struct count c = count_of(&s, LEVEL_ISOPHOTE, d, value);
 		assert_true(c.branches > 5);
-		for (int way = 0; way < 2; way++) {
-			assert_int_equal(surface_insert(&r, &s, way, knots, 4), ST_OK);
-			assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
-			surface_finish(&r);
-			assert_int_equal(surface_elevate(&r, &s, way, 2), ST_OK);
-			assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
-			surface_finish(&r);
-		}
-		assert_int_equal(surface_copy(&r, &s), ST_OK);
-		surface_reparametrise(&r, 0, -3, 100);
-		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
-		/* exchanged, the normal is turned */
-		assert_int_equal(surface_exchange(&r), ST_OK);
-		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, -value));
-		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, vec3_scale(d, -4), value));
-		surface_finish(&r);
-		r = stretched(&s, 3.7);
-		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
-		surface_finish(&r);
+		assert_forms(&s, d, value, 2);
 		r = stretched(&s, 1.0);
 		assert_same(c, count_of(&r, LEVEL_ISOPHOTE, d, value));
 		surface_finish(&r);

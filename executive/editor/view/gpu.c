@@ -5,16 +5,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Made when first needed; indices are not bound yet. */
+static void bind(GLuint *array, GLuint *vertices, GLuint *indices)
+{
+	if (!*array) {
+		glGenVertexArrays(1, array);
+		glGenBuffers(1, vertices);
+		glGenBuffers(1, indices);
+	}
+	glBindVertexArray(*array);
+	glBindBuffer(GL_ARRAY_BUFFER, *vertices);
+}
+
 void gpu_mesh_load(struct gpu_mesh *g, const struct mesh_made *m)
 {
 	const GLsizei size = sizeof(struct mesh_vertex_made);
-	if (!g->array) {
-		glGenVertexArrays(1, &g->array);
-		glGenBuffers(1, &g->vertices);
-		glGenBuffers(1, &g->indices);
-	}
-	glBindVertexArray(g->array);
-	glBindBuffer(GL_ARRAY_BUFFER, g->vertices);
+	bind(&g->array, &g->vertices, &g->indices);
 	glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)m->n_vertices * size, m->vertices,
 	             GL_STATIC_DRAW);
 	glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
@@ -139,13 +145,7 @@ enum status gpu_ribbon_load(struct gpu_ribbon *g, const struct poly *p)
 		for (int i = 0; i < 2 * p->n; i++)
 			twice[i] = p->v[i / 2];
 		g->n = ribbon_indices(indices, p);
-		if (!g->array) {
-			glGenVertexArrays(1, &g->array);
-			glGenBuffers(1, &g->vertices);
-			glGenBuffers(1, &g->indices);
-		}
-		glBindVertexArray(g->array);
-		glBindBuffer(GL_ARRAY_BUFFER, g->vertices);
+		bind(&g->array, &g->vertices, &g->indices);
 		glBufferData(GL_ARRAY_BUFFER, 2 * (GLsizeiptr)p->n * (GLsizeiptr)sizeof *twice,
 		             twice, GL_STATIC_DRAW);
 		glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);

@@ -137,6 +137,23 @@ static const char quick_fragment[] = "#version 330 core\n"
                                      "	result = vec4(shade, 1.0);\n"
                                      "}\n";
 
+/* What wide lines and ribbons are placed with. before_eye: p, moved towards q until it is before the eye. */
+#define LINE_FUNCTIONS                                                                             \
+	"vec4 before_eye(vec4 p, vec4 q)\n"                                                        \
+	"{\n"                                                                                      \
+	"	float low = 1e-6 * abs(q.w);\n"                                                          \
+	"	return p.w > low ? p : mix(p, q, (low - p.w) / (q.w - p.w));\n"                          \
+	"}\n"                                                                                      \
+	"vec2 pixel(vec4 p)\n"                                                                     \
+	"{\n"                                                                                      \
+	"	return 0.5 * viewport * p.xy / p.w;\n"                                                   \
+	"}\n"                                                                                      \
+	"vec2 direction(vec2 d, vec2 otherwise)\n"                                                 \
+	"{\n"                                                                                      \
+	"	float l = length(d);\n"                                                                  \
+	"	return l > 1e-4 ? d / l : otherwise;\n"                                                  \
+	"}\n"
+
 /*
  * A piece of a polyline is one instance, a quadrilateral of four corners: attributes 0 to 3 are the
  * vertex before it, its two, and the one behind; w < 0 marks a vertex that only keeps polylines
@@ -157,22 +174,7 @@ static const char line_vertex[] =
         "noperspective out vec2 at;\n" /* along the piece and across it, px */
         "noperspective out float along;\n"
         "flat out float piece;\n"
-        "flat out vec2 capped;\n"
-        "vec4 before_eye(vec4 p, vec4 q)\n" /* p, moved towards q until it is before the eye */
-        "{\n"
-        "	float low = 1e-6 * abs(q.w);\n"
-        "	return p.w > low ? p : mix(p, q, (low - p.w) / (q.w - p.w));\n"
-        "}\n"
-        "vec2 pixel(vec4 p)\n"
-        "{\n"
-        "	return 0.5 * viewport * p.xy / p.w;\n"
-        "}\n"
-        "vec2 direction(vec2 d, vec2 otherwise)\n"
-        "{\n"
-        "	float l = length(d);\n"
-        "	return l > 1e-4 ? d / l : otherwise;\n"
-        "}\n"
-        "void main()\n"
+        "flat out vec2 capped;\n" LINE_FUNCTIONS "void main()\n"
         "{\n"
         "	vec4 a = matrix * vec4(from.xyz, 1.0), b = matrix * vec4(to.xyz, 1.0);\n"
         "	gl_Position = vec4(2.0, 2.0, 2.0, 1.0);\n"
@@ -255,22 +257,7 @@ static const char ribbon_vertex[] =
         "uniform mat4 matrix;\n"
         "uniform vec2 viewport;\n"
         "uniform float width, bias;\n"
-        "noperspective out float across;\n"
-        "vec4 before_eye(vec4 p, vec4 q)\n" /* p, moved towards q until it is before the eye */
-        "{\n"
-        "	float low = 1e-6 * abs(q.w);\n"
-        "	return p.w > low ? p : mix(p, q, (low - p.w) / (q.w - p.w));\n"
-        "}\n"
-        "vec2 pixel(vec4 p)\n"
-        "{\n"
-        "	return 0.5 * viewport * p.xy / p.w;\n"
-        "}\n"
-        "vec2 direction(vec2 d, vec2 otherwise)\n"
-        "{\n"
-        "	float l = length(d);\n"
-        "	return l > 1e-4 ? d / l : otherwise;\n"
-        "}\n"
-        "void main()\n"
+        "noperspective out float across;\n" LINE_FUNCTIONS "void main()\n"
         "{\n"
         "	vec4 x = matrix * vec4(before, 1.0), y = matrix * vec4(behind, 1.0);\n"
         "	gl_Position = matrix * vec4(place, 1.0);\n"
