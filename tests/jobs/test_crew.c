@@ -203,6 +203,14 @@ static void hello(struct here *h, int64_t id)
 	packet(h, id, MESSAGE_HELLO, json_pack("{s:i}", "protocol", MESSAGE_PROTOCOL));
 }
 
+/* Both shards of JOB are there and wait. */
+static void begin_two(struct here *h)
+{
+	assert_int_equal(begin(h, 2), ST_OK);
+	hello(h, shard_id(JOB, 0));
+	hello(h, shard_id(JOB, 1));
+}
+
 static void end(struct here *h, int64_t id, int status, int signal)
 {
 	struct launcher_exit e = { .status = status, .signal = signal, .cpu_s = NAN };
@@ -258,9 +266,7 @@ static void a_lost_shard_is_begun_again_but_not_for_ever(void **state)
 {
 	struct here *h = *state;
 	int64_t a = shard_id(JOB, 0), b = shard_id(JOB, 1);
-	assert_int_equal(begin(h, 2), ST_OK);
-	hello(h, a);
-	hello(h, b);
+	begin_two(h);
 	expect(h, "start 7/0;start 7/1;START 7/0;START 7/1;up HELLO 7;");
 	for (int i = 0; i < 3; i++) {
 		end(h, a, 0, 9);
@@ -276,9 +282,7 @@ static void a_shard_that_fails_ends_all(void **state)
 {
 	struct here *h = *state;
 	int64_t a = shard_id(JOB, 0), b = shard_id(JOB, 1);
-	assert_int_equal(begin(h, 2), ST_OK);
-	hello(h, a);
-	hello(h, b);
+	begin_two(h);
 	packet(h, b, MESSAGE_ERROR, json_pack("{s:s, s:s}", "class", "input", "text", "no"));
 	end(h, b, 1, 0);
 	end(h, a, 0, 9);
@@ -287,9 +291,7 @@ static void a_shard_that_fails_ends_all(void **state)
 	/* a result is for the one that joins */
 	const struct launcher *l = crew_launcher(h->crew);
 	l->forget(l->data, JOB);
-	assert_int_equal(begin(h, 2), ST_OK);
-	hello(h, a);
-	hello(h, b);
+	begin_two(h);
 	expect(h, "start 7/0;start 7/1;START 7/0;START 7/1;up HELLO 7;");
 	packet(h, a, MESSAGE_RESULT, json_pack("{s:s, s:s}", "path", "/o", "kind", "t"));
 	expect(h, "broken: a RESULT from a shard 7;");
@@ -301,9 +303,7 @@ static void all_go_on_where_one_refuses(void **state)
 	struct here *h = *state;
 	const struct launcher *l = crew_launcher(h->crew);
 	int64_t a = shard_id(JOB, 0), b = shard_id(JOB, 1);
-	assert_int_equal(begin(h, 2), ST_OK);
-	hello(h, a);
-	hello(h, b);
+	begin_two(h);
 	l->signal(l->data, JOB, LAUNCHER_STOP);
 	h->sink.stopped(h->sink.data, a, true);
 	expect(h, "start 7/0;start 7/1;START 7/0;START 7/1;up HELLO 7;stop 7/0;stop 7/1;");
@@ -318,9 +318,7 @@ static void it_is_stopped_when_all_are(void **state)
 	struct here *h = *state;
 	const struct launcher *l = crew_launcher(h->crew);
 	int64_t a = shard_id(JOB, 0), b = shard_id(JOB, 1);
-	assert_int_equal(begin(h, 2), ST_OK);
-	hello(h, a);
-	hello(h, b);
+	begin_two(h);
 	expect(h, "start 7/0;start 7/1;START 7/0;START 7/1;up HELLO 7;");
 	l->signal(l->data, JOB, LAUNCHER_STOP);
 	h->sink.stopped(h->sink.data, a, true);
