@@ -169,6 +169,15 @@ static void a_batch_is_written_whole_or_not_at_all(void **state)
 	free(path);
 }
 
+/* What another program does to a ledger that is closed. */
+static void change(const char *path, const char *sql)
+{
+	sqlite3 *db;
+	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+	assert_int_equal(sqlite3_exec(db, sql, NULL, NULL, NULL), SQLITE_OK);
+	sqlite3_close(db);
+}
+
 static void what_is_no_ledger_is_refused(void **state)
 {
 	char *path = path_join(*state, "jobs.db"), junk[5000];
@@ -182,10 +191,7 @@ static void what_is_no_ledger_is_refused(void **state)
 	assert_null(l.data);
 	assert_int_equal(unlink(path), 0);
 
-	sqlite3 *db;
-	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-	assert_int_equal(sqlite3_exec(db, "PRAGMA user_version=9", NULL, NULL, NULL), SQLITE_OK);
-	sqlite3_close(db);
+	change(path, "PRAGMA user_version=9");
 	report_store_init(&store);
 	assert_int_equal(ledger_open(&l, path, &store.report), ST_INPUT);
 	assert_non_null(strstr(store.error, "later batten"));
@@ -199,16 +205,11 @@ static void damage_costs_no_more_than_it_must(void **state)
 	struct ledger l;
 	struct found f = { 0 };
 	struct report_store store;
-	sqlite3 *db;
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	for (int64_t id = 1; id <= 400; id++)
 		assert_int_equal(put(&l, id, JOB_HELD, false), ST_OK);
 	ledger_close(&l);
-	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-	assert_int_equal(
-	        sqlite3_exec(db, "UPDATE jobs SET record='{' WHERE id=7", NULL, NULL, NULL),
-	        SQLITE_OK);
-	sqlite3_close(db);
+	change(path, "UPDATE jobs SET record='{' WHERE id=7");
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	load(&l, &f);
 	assert_int_equal(f.n, 400);
@@ -376,40 +377,24 @@ static void a_ledger_of_before_is_taken_over(void **state)
 	struct text t = { 0 };
 	int64_t *ids;
 	size_t n;
-	sqlite3 *db;
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	fill(&l, 500);
 	ledger_close(&l);
-	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-	assert_int_equal(sqlite3_exec(db,
-	                              "DROP INDEX live; DROP INDEX over; DROP INDEX grouped;"
-	                              "ALTER TABLE jobs DROP COLUMN ended;"
-	                              "ALTER TABLE jobs DROP COLUMN grp;"
-	                              "PRAGMA user_version=1",
-	                              NULL, NULL, NULL),
-	                 SQLITE_OK);
-	sqlite3_close(db);
+	change(path, "DROP INDEX live; DROP INDEX over; DROP INDEX grouped;"
+	             "ALTER TABLE jobs DROP COLUMN ended;"
+	             "ALTER TABLE jobs DROP COLUMN grp;"
+	             "PRAGMA user_version=1");
 	/* the second time it was stopped half way, the third time it is done */
 	for (int turn = 0; turn < 3; turn++) {
-		if (turn == 1) {
-			assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-			assert_int_equal(sqlite3_exec(db,
-			                              "DROP INDEX live; DROP INDEX over;"
-			                              "UPDATE jobs SET ended=NULL, grp=NULL"
-			                              " WHERE id > 200; PRAGMA user_version=1",
-			                              NULL, NULL, NULL),
-			                 SQLITE_OK);
-			sqlite3_close(db);
-		}
+		if (turn == 1)
+			change(path, "DROP INDEX live; DROP INDEX over;"
+			             "UPDATE jobs SET ended=NULL, grp=NULL"
+			             " WHERE id > 200; PRAGMA user_version=1");
 		assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 		check_choices(&l, 500);
 		ledger_close(&l);
 	}
-	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-	assert_int_equal(
-	        sqlite3_exec(db, "UPDATE jobs SET record='{\"id\":' WHERE id=6", NULL, NULL, NULL),
-	        SQLITE_OK);
-	sqlite3_close(db);
+	change(path, "UPDATE jobs SET record='{\"id\":' WHERE id=6");
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	assert_int_equal(l.choose(l.data, &(struct ledger_choice){ 0 }, &ids, &n, NULL), ST_OK);
 	assert_int_equal(n, 400);
@@ -431,19 +416,13 @@ static void gaps_between_numbers_cost_nothing(void **state)
 	struct ledger l;
 	int64_t *ids;
 	size_t n;
-	sqlite3 *db;
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	fill(&l, 50);
 	ledger_close(&l);
-	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-	assert_int_equal(sqlite3_exec(db,
-	                              "UPDATE jobs SET id=9223372036854775807 WHERE id=49;"
-	                              "UPDATE jobs SET id=1000000000000000 WHERE id=48;"
-	                              "UPDATE jobs SET ended=NULL, grp=NULL;"
-	                              "PRAGMA user_version=1",
-	                              NULL, NULL, NULL),
-	                 SQLITE_OK);
-	sqlite3_close(db);
+	change(path, "UPDATE jobs SET id=9223372036854775807 WHERE id=49;"
+	             "UPDATE jobs SET id=1000000000000000 WHERE id=48;"
+	             "UPDATE jobs SET ended=NULL, grp=NULL;"
+	             "PRAGMA user_version=1");
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	assert_int_equal(l.choose(l.data, &(struct ledger_choice){ 0 }, &ids, &n, NULL), ST_OK);
 	assert_int_equal(n, 40);
@@ -461,19 +440,12 @@ static void a_state_that_cannot_be_is_damage(void **state)
 	struct found f = { 0 };
 	int64_t last;
 	bool held;
-	sqlite3 *db;
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	assert_int_equal(put(&l, 1, JOB_DONE, false), ST_OK);
 	assert_int_equal(put(&l, 2, JOB_HELD, false), ST_OK);
 	ledger_close(&l);
-	assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-	assert_int_equal(
-	        sqlite3_exec(db,
-	                     "UPDATE jobs SET record='{\"id\":1,\"stat\":\"done\"}' WHERE id=1;"
-	                     "UPDATE jobs SET record='{\"id\":2,\"state\":\"done\"}' WHERE id=2",
-	                     NULL, NULL, NULL),
-	        SQLITE_OK);
-	sqlite3_close(db);
+	change(path, "UPDATE jobs SET record='{\"id\":1,\"stat\":\"done\"}' WHERE id=1;"
+	             "UPDATE jobs SET record='{\"id\":2,\"state\":\"done\"}' WHERE id=2");
 	assert_int_equal(ledger_open(&l, path, NULL), ST_OK);
 	assert_int_equal(l.find(l.data, 1, find, &f, NULL), ST_OK);
 	assert_int_equal(l.load(l.data, find, &f, &last, &held, NULL), ST_OK);
