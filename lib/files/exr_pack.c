@@ -93,9 +93,10 @@ static enum status compress(unsigned char *bytes, size_t *size)
 {
 	size_t n = *size, even = (n + 1) / 2;
 	struct libdeflate_compressor *zip = libdeflate_alloc_compressor(EXR_ZIP_LEVEL);
-	unsigned char *small = malloc(2 * n), *packed = small + n;
+	unsigned char *small = malloc(2 * n);
 	bool can = zip && small;
 	if (can) {
+		unsigned char *packed = small + n;
 		differences(bytes, even, 0, small);
 		differences(bytes + 1, n - even, bytes[2 * even - 2], small + even);
 		small[0] = bytes[0]; /* the first is itself */

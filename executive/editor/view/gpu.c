@@ -141,7 +141,8 @@ enum status gpu_ribbon_load(struct gpu_ribbon *g, const struct poly *p)
 		return ST_OK;
 	struct poly_vertex *twice = malloc(2 * (size_t)p->n * sizeof *twice);
 	unsigned *indices = malloc(6 * (size_t)p->n * sizeof *indices);
-	if (twice && indices) {
+	const bool made = twice && indices;
+	if (made) {
 		for (int i = 0; i < 2 * p->n; i++)
 			twice[i] = p->v[i / 2];
 		g->n = ribbon_indices(indices, p);
@@ -157,7 +158,7 @@ enum status gpu_ribbon_load(struct gpu_ribbon *g, const struct poly *p)
 	}
 	free(indices);
 	free(twice);
-	return g->n || !p->n ? ST_OK : ST_RESOURCE;
+	return made ? ST_OK : ST_RESOURCE;
 }
 
 void gpu_ribbon_finish(struct gpu_ribbon *g)
